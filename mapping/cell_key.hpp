@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+namespace thermovox {
+
+/// Index of a cubic cell of the map: cell k covers [k, k + 1) * resolution on each axis of the world.
+struct CellKey {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  std::int32_t z = 0;
+  friend auto operator<=>(const CellKey&, const CellKey&) = default;
+};
+
+/// The largest |key| a map holds; further out a coordinate does not fit (1638 km at 0.05 m).
+inline constexpr std::int32_t kMaxCellKey = 1 << 25;
+
+/// The cell that holds p_world (metres): floor(x / resolution), computed as OctoMap does, as a product with
+/// the inverse. Precondition: finite and within kMaxCellKey.
+[[nodiscard]] inline CellKey cellKey(const Eigen::Vector3d& p_world, double inverse_resolution) {
+  return {static_cast<std::int32_t>(std::floor(inverse_resolution * p_world.x())),
+          static_cast<std::int32_t>(std::floor(inverse_resolution * p_world.y())),
+          static_cast<std::int32_t>(std::floor(inverse_resolution * p_world.z()))};
+}
+
+/// Cells are kept in blocks of 8 x 8 x 8.
+inline constexpr int kBlockBits = 3;
+inline constexpr int kBlockEdge = 1 << kBlockBits;
+inline constexpr int kBlockCells = kBlockEdge * kBlockEdge * kBlockEdge;
+
+/// Index of a block: the cells' keys divided by kBlockEdge, rounded down.
+struct BlockKey {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  std::int32_t z = 0;
+  friend auto operator<=>(const BlockKey&, const BlockKey&) = default;
+};
+
+[[nodiscard]] inline BlockKey blockOf(const CellKey& key) {
+  return {key.x >> kBlockBits, key.y >> kBlockBits, key.z >> kBlockBits};
+}
+/// Place of a cell within its block, x fastest: 0 .. kBlockCells - 1.
+[[nodiscard]] inline int indexInBlock(const CellKey& key) {
+  constexpr int mask = kBlockEdge - 1;
+  return (key.x & mask) | ((key.y & mask) << kBlockBits) | ((key.z & mask) << (2 * kBlockBits));
+}
+[[nodiscard]] inline CellKey cellAt(const BlockKey& block, int index) {
+  constexpr int mask = kBlockEdge - 1;
+  return {block.x * kBlockEdge + (index & mask), block.y * kBlockEdge + ((index >> kBlockBits) & mask),
+          block.z * kBlockEdge + (index >> (2 * kBlockBits))};
+}
+
+struct BlockKeyHash {
+  [[nodiscard]] std::size_t operator()(const BlockKey& key) const {
+    // Three odd constants (as in Teschner et al. 2003), then a finaliser: neighbours must not cluster.
+    std::uint64_t h = static_cast<std::uint32_t>(key.x) * 73856093ULL ^
+                      static_cast<std::uint32_t>(key.y) * 19349669ULL * 0x9E3779B1ULL ^
+                      static_cast<std::uint32_t>(key.z) * 83492791ULL * 0x85EBCA77ULL;
+    h ^= h >> 33;
+    h *= 0xff51afd7ed558ccdULL;
+    h ^= h >> 33;
+    return static_cast<std::size_t>(h);
+  }
+};
+
+}  // namespace thermovox

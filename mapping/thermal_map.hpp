@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "mapping/cell_key.hpp"
+#include "mapping/occupancy_model.hpp"
+#include "mapping/surface_cell.hpp"
+
+namespace thermovox {
+
+/// One laser return as the map takes it: where it lies, whence it was seen, and how warm it is.
+struct MappedReturn {
+  Eigen::Vector3d p_world;       ///< metres
+  Eigen::Vector3d origin_world;  ///< where the laser was at that moment, metres
+  Time stamp;
+  std::optional<TemperatureObservation> temperature;  ///< none where no frame saw the point
+};
+
+/// Which cells a ray frees.
+enum class Carving {
+  none,     ///< none: surfaces only
+  octomap,  ///< every cell between the laser and the return, as OctoMap's insertPointCloud does
+};
+
+/// 8 x 8 x 8 cells: log-odds for all, statistics only for those that held a surface.
+struct Block {
+  /// Log-odds in quanta of the map's OccupancyModel; kUnknown where no ray ever was.
+  std::array<LogOdds, kBlockCells> log_odds;
+  /// Statistics of the cells in `surface_index`, in that order.
+  std::vector<SurfaceCell> surfaces;
+  /// Cells (indexInBlock) that hold a surface, ascending.
+  std::vector<std::uint16_t> surface_index;
+
+  Block() { log_odds.fill(kUnknown); }
+  [[nodiscard]] const SurfaceCell* surface(int index) const;
+  [[nodiscard]] SurfaceCell& surfaceOrNew(int index);
+};
+
+/// The persistent thermal map: a block-hashed grid in the world frame with OctoMap's occupancy and, for cells
+/// that a return hit, the temperature statistics. Temperature never moves geometry. Not thread-safe for
+/// writing.
+class ThermalMap {
+ public:
+  struct Options {
+    double resolution = 0.05;  ///< edge of a cell, metres
+    OccupancyModel::Options occupancy;
+    void validate() const;  ///< throws ConfigError naming the field and its value
+  };
+
+  explicit ThermalMap(const Options& options);
+
+  /// Integrates one reading: within it a cell is updated once, hit before free (OctoMap's rule).
+  /// Points further out than kMaxCellKey are refused with DataError.
+  void integrate(std::span<const MappedReturn> reading, Carving carving);
+
+  /// Adds a map of the same resolution and occupancy model (the map of another mission): log-odds add,
+  /// statistics add exactly, so that the order of missions does not matter. Throws ConfigError otherwise.
+  void merge(const ThermalMap& other);
+
+  [[nodiscard]] const Options& options() const { return options_; }
+  [[nodiscard]] double resolution() const { return options_.resolution; }
+  [[nodiscard]] const OccupancyModel& occupancyModel() const { return model_; }
+
+  [[nodiscard]] CellKey keyOf(const Eigen::Vector3d& p_world) const { return cellKey(p_world, 1.0 / resolution()); }
+  [[nodiscard]] Eigen::Vector3d centerOf(const CellKey& key) const;
+  /// Log-odds of a cell (natural logarithm); nullopt where no ray ever was.
+  [[nodiscard]] std::optional<double> logOdds(const CellKey& key) const;
+  /// Statistics of a cell; null where no return ever hit.
+  [[nodiscard]] const SurfaceCell* surface(const CellKey& key) const;
+
+  [[nodiscard]] std::size_t blockCount() const { return blocks_.size(); }
+  [[nodiscard]] std::size_t surfaceCount() const;
+  [[nodiscard]] const Block* block(const BlockKey& key) const;
+  /// Puts a block as it was read from a station; replaces one that is there.
+  void setBlock(const BlockKey& key, Block block);
+  /// All blocks in ascending order of their keys (x first), so that two runs write identical files.
+  [[nodiscard]] std::vector<BlockKey> sortedBlockKeys() const;
+
+ private:
+  Options options_;
+  OccupancyModel model_;
+  std::unordered_map<BlockKey, std::unique_ptr<Block>, BlockKeyHash> blocks_;
+};
+
+/// Calls visit(key, surface_cell) for every cell that a return hit, blocks in key order, cells in index order.
+template <typename Visitor>
+void forEachSurface(const ThermalMap& map, Visitor&& visit) {
+  for (const BlockKey& block_key : map.sortedBlockKeys()) {
+    const Block& block = *map.block(block_key);
+    for (std::size_t i = 0; i < block.surfaces.size(); ++i) {
+      visit(cellAt(block_key, block.surface_index[i]), block.surfaces[i]);
+    }
+  }
+}
+
+}  // namespace thermovox

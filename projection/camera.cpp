@@ -1,0 +1,204 @@
+#include "projection/camera.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <unsupported/Eigen/Polynomials>
+#include <vector>
+
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+constexpr double kMinDepth = 1e-6;  // metres
+using Polynomial = std::vector<double>;  // coefficients, lowest power first
+
+Polynomial multiply(const Polynomial& a, const Polynomial& b) {
+  Polynomial product(a.size() + b.size() - 1, 0.0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) product[i + j] += a[i] * b[j];
+  }
+  return product;
+}
+
+Polynomial derivative(const Polynomial& a) {
+  Polynomial result;
+  for (std::size_t i = 1; i < a.size(); ++i) result.push_back(static_cast<double>(i) * a[i]);
+  if (result.empty()) result.push_back(0.0);
+  return result;
+}
+
+Polynomial sum(Polynomial a, const Polynomial& b, double factor) {
+  a.resize(std::max(a.size(), b.size()), 0.0);
+  for (std::size_t i = 0; i < b.size(); ++i) a[i] += factor * b[i];
+  return a;
+}
+
+/// Smallest positive real root, infinity where there is none.
+double smallestPositiveRoot(Polynomial polynomial) {
+  while (polynomial.size() > 1 && polynomial.back() == 0.0) polynomial.pop_back();
+  if (polynomial.size() < 2) return std::numeric_limits<double>::infinity();
+  const Eigen::Map<const Eigen::VectorXd> coefficients(polynomial.data(), static_cast<Eigen::Index>(polynomial.size()));
+  const Eigen::PolynomialSolver<double, Eigen::Dynamic> solver(coefficients);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& root : solver.roots()) {
+    // A double root comes out of the eigenvalues as a pair with a small imaginary part; taking it for real
+    // only narrows the field of view by nothing visible.
+    const bool real = std::abs(root.imag()) <= 1e-6 * std::max(1.0, std::abs(root.real()));
+    if (real && root.real() > 0.0) smallest = std::min(smallest, root.real());
+  }
+  return smallest;
+}
+
+/// In s = r^2 the radial map is r N(s) / D(s); it grows where N D + 2 s (N' D - N D') > 0.
+double brownConradyRadius(std::span<const double, 8> d) {
+  const Polynomial numerator{1.0, d[0], d[1], d[4]};
+  const Polynomial denominator{1.0, d[5], d[6], d[7]};
+  const Polynomial growth = sum(multiply(derivative(numerator), denominator),
+                                multiply(numerator, derivative(denominator)), -1.0);
+  Polynomial slope = multiply(numerator, denominator);
+  slope = sum(slope, multiply(Polynomial{0.0, 2.0}, growth), 1.0);
+  return std::sqrt(std::min(smallestPositiveRoot(slope), smallestPositiveRoot(denominator)));
+}
+
+/// theta_d grows where 1 + 3 k1 t^2 + 5 k2 t^4 + 7 k3 t^6 + 9 k4 t^8 > 0; theta ends at 90 degrees.
+double kannalaBrandtRadius(std::span<const double, 8> d) {
+  const double squared = smallestPositiveRoot({1.0, 3.0 * d[0], 5.0 * d[1], 7.0 * d[2], 9.0 * d[3]});
+  const double theta = std::sqrt(squared);
+  return theta < M_PI / 2 ? std::tan(theta) : std::numeric_limits<double>::infinity();
+}
+
+Eigen::Matrix2d brownConradyJacobian(std::span<const double, 8> d, const Eigen::Vector2d& n) {
+  const double x = n.x();
+  const double y = n.y();
+  const double s = n.squaredNorm();
+  const double numerator = 1.0 + s * (d[0] + s * (d[1] + s * d[4]));
+  const double denominator = 1.0 + s * (d[5] + s * (d[6] + s * d[7]));
+  const double numerator_slope = d[0] + s * (2.0 * d[1] + 3.0 * s * d[4]);
+  const double denominator_slope = d[5] + s * (2.0 * d[6] + 3.0 * s * d[7]);
+  const double radial = numerator / denominator;
+  const double radial_slope = (numerator_slope - radial * denominator_slope) / denominator;  // d radial / d s
+  const double p1 = d[2];
+  const double p2 = d[3];
+  Eigen::Matrix2d j;
+  j(0, 0) = radial + 2.0 * x * x * radial_slope + 2.0 * p1 * y + 6.0 * p2 * x;
+  j(0, 1) = 2.0 * x * y * radial_slope + 2.0 * p1 * x + 2.0 * p2 * y;
+  j(1, 0) = j(0, 1);
+  j(1, 1) = radial + 2.0 * y * y * radial_slope + 6.0 * p1 * y + 2.0 * p2 * x;
+  return j;
+}
+
+Eigen::Matrix2d kannalaBrandtJacobian(std::span<const double, 8> d, const Eigen::Vector2d& n) {
+  const double r = n.norm();
+  if (r < 1e-8) return Eigen::Matrix2d::Identity();
+  const double theta = std::atan(r);
+  const double t2 = theta * theta;
+  const double theta_d = theta * (1.0 + t2 * (d[0] + t2 * (d[1] + t2 * (d[2] + t2 * d[3]))));
+  const double theta_d_slope = 1.0 + t2 * (3.0 * d[0] + t2 * (5.0 * d[1] + t2 * (7.0 * d[2] + t2 * 9.0 * d[3])));
+  const Eigen::Vector2d radial = n / r;
+  const double along = theta_d_slope / (1.0 + r * r);
+  const double across = theta_d / r;
+  return across * Eigen::Matrix2d::Identity() + (along - across) * radial * radial.transpose();
+}
+
+void checkIntrinsics(const Intrinsics& in) {
+  if (in.width_px <= 0 || in.height_px <= 0) {
+    throw ConfigError("camera: image size is " + std::to_string(in.width_px) + " x " + std::to_string(in.height_px) +
+                      ", expected positive");
+  }
+  if (!std::all_of(in.parameters.begin(), in.parameters.end(), [](double p) { return std::isfinite(p); })) {
+    throw ConfigError("camera: a parameter is not a finite number");
+  }
+  if (!(in.parameters[kFx] > 0.0 && in.parameters[kFy] > 0.0)) {
+    throw ConfigError("camera: fx and fy are " + std::to_string(in.parameters[kFx]) + " and " +
+                      std::to_string(in.parameters[kFy]) + " px, expected positive");
+  }
+  const int n = in.distortion_count;
+  const bool fits = (in.model == LensModel::pinhole && n == 0) ||
+                    (in.model == LensModel::brown_conrady && (n == 4 || n == 5 || n == 8)) ||
+                    (in.model == LensModel::kannala_brandt && n == 4);
+  if (!fits) {
+    throw ConfigError("camera: " + std::to_string(n) +
+                      " distortion coefficients, expected 0 (pinhole), 4, 5 or 8 (brown_conrady), 4 (kannala_brandt)");
+  }
+}
+
+std::span<const double, 8> distortionOf(const Intrinsics& intrinsics) {
+  return std::span<const double, 8>(intrinsics.parameters.data() + kDistortion, 8);
+}
+
+}  // namespace
+
+double monotonicRadius(LensModel model, std::span<const double, 8> d) {
+  switch (model) {
+    case LensModel::brown_conrady:
+      return brownConradyRadius(d);
+    case LensModel::kannala_brandt:
+      return kannalaBrandtRadius(d);
+    case LensModel::pinhole:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+Eigen::Matrix2d distortionJacobian(LensModel model, std::span<const double, 8> d, const Eigen::Vector2d& n) {
+  switch (model) {
+    case LensModel::brown_conrady:
+      return brownConradyJacobian(d, n);
+    case LensModel::kannala_brandt:
+      return kannalaBrandtJacobian(d, n);
+    case LensModel::pinhole:
+      break;
+  }
+  return Eigen::Matrix2d::Identity();
+}
+
+Camera::Camera(const Intrinsics& intrinsics) : intrinsics_(intrinsics) {
+  checkIntrinsics(intrinsics_);
+  valid_radius_ = monotonicRadius(intrinsics_.model, distortionOf(intrinsics_));
+  valid_radius_squared_ = valid_radius_ * valid_radius_;
+}
+
+std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p_camera) const {
+  const double z = p_camera.z();
+  if (!(z > kMinDepth)) return std::nullopt;  // written so that NaN is rejected too
+  if (!(p_camera.head<2>().squaredNorm() < valid_radius_squared_ * z * z)) return std::nullopt;
+  const Eigen::Vector2d pixel = pixelFromCamera(intrinsics_.model, intrinsics_.parameters.data(), p_camera);
+  const bool inside = pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < width() - 0.5 && pixel.y() < height() - 0.5;
+  if (!inside) return std::nullopt;
+  return pixel;
+}
+
+std::optional<Eigen::Vector3d> Camera::rayFromPixel(const Eigen::Vector2d& pixel) const {
+  const auto& p = intrinsics_.parameters;
+  const Eigen::Vector2d target((pixel.x() - p[kCx]) / p[kFx], (pixel.y() - p[kCy]) / p[kFy]);
+  if (!target.allFinite()) return std::nullopt;
+  Eigen::Vector2d n = target;
+  if (n.norm() >= valid_radius_) n *= 0.9 * valid_radius_ / n.norm();
+  constexpr int kMaxIterations = 50;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const Eigen::Vector2d residual = distort(intrinsics_.model, p.data() + kDistortion, n) - target;
+    Eigen::Vector2d step = distortionJacobian(intrinsics_.model, distortionOf(intrinsics_), n).inverse() * residual;
+    // Stay on the monotonic branch: a step over its border would find the folded image of another ray.
+    while ((n - step).norm() >= valid_radius_ && step.norm() > 1e-15) step *= 0.5;
+    n -= step;
+    if (!n.allFinite()) return std::nullopt;
+    if (step.norm() < 1e-14 * (1.0 + n.norm())) break;
+  }
+  const double error = (distort(intrinsics_.model, p.data() + kDistortion, n) - target).norm();
+  if (!(error < 1e-10)) return std::nullopt;
+  return Eigen::Vector3d(n.x(), n.y(), 1.0);
+}
+
+Eigen::Matrix<double, 2, 3> Camera::jacobian(const Eigen::Vector3d& p_camera) const {
+  const double inverse_depth = 1.0 / p_camera.z();
+  const Eigen::Vector2d n = p_camera.head<2>() * inverse_depth;
+  Eigen::Matrix<double, 2, 3> normalise;  // d n / d p_camera
+  normalise << inverse_depth, 0.0, -n.x() * inverse_depth, 0.0, inverse_depth, -n.y() * inverse_depth;
+  const Eigen::Vector2d focal(fx(), fy());
+  return focal.asDiagonal() * distortionJacobian(intrinsics_.model, distortionOf(intrinsics_), n) * normalise;
+}
+
+}  // namespace thermovox

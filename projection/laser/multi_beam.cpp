@@ -1,0 +1,28 @@
+#include "projection/laser/multi_beam.hpp"
+
+#include <cmath>
+
+#include "projection/laser/range_gate.hpp"
+
+namespace thermovox {
+namespace {
+
+constexpr double kLongestSweep = 3600.0;  // seconds; a larger offset is a damaged field, not a time
+
+}  // namespace
+
+Reading readingFromCloud(Time stamp, std::span<const CloudPoint> points, const Laser& laser) {
+  Reading reading{.stamp = stamp};
+  reading.returns.reserve(points.size());
+  for (const CloudPoint& point : points) {
+    if (!(std::abs(point.time) <= kLongestSweep)) {
+      ++reading.dropped.no_return;
+      continue;
+    }
+    const Time taken = stamp + durationFromSeconds(point.time);
+    appendIfValid(reading, {taken, point.p_laser.cast<double>(), point.intensity}, laser);
+  }
+  return reading;
+}
+
+}  // namespace thermovox

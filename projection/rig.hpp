@@ -1,0 +1,56 @@
+#pragma once
+
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "projection/camera.hpp"
+#include "projection/pose.hpp"
+#include "projection/radiometry.hpp"
+#include "projection/time.hpp"
+
+namespace thermovox {
+
+/// A camera as it is mounted on the body.
+struct MountedCamera {
+  Camera camera;
+  Pose T_body_camera;
+};
+
+/// The thermal camera and what is known of its errors.
+struct ThermalCamera {
+  Camera camera;
+  Pose T_body_camera;
+  TLinear t_linear;
+  double netd = 0.05;        ///< noise of one pixel, one sigma, C
+  double bias_sigma = 0.0;   ///< error common to a frame, one sigma, C (a Duo R is good to 5)
+  double blur_px = 0.6;      ///< optics and pixel together, one sigma of a Gaussian, px
+};
+
+enum class LaserKind { beam, scan, cloud };
+
+/// A laser as it is mounted on the body, with its geometry and its noise.
+struct Laser {
+  LaserKind kind = LaserKind::beam;
+  Pose T_body_laser;
+  double range_min = 0.0;          ///< metres; shorter returns are dropped
+  double range_max = 100.0;        ///< metres; longer returns are dropped
+  double range_sigma = 0.02;       ///< noise of one range, one sigma, metres
+  double range_bias_sigma = 0.0;   ///< error common to all readings, one sigma, metres
+  double min_intensity = 0.0;      ///< weaker returns are dropped
+  double angle_min = -0.75 * std::numbers::pi;  ///< scan: angle of the first range, radians
+  double angle_increment = std::numbers::pi / 720;  ///< scan: radians from range to range
+  Duration time_increment = Duration::zero();       ///< scan: time from range to range
+  /// Of T_body_laser (the camera's pose is taken as exact, so this is the pair's): R' = Exp(w) R,
+  /// t' = t + v, w and v along the body's axes. Zero when the rig does not say.
+  Matrix6d covariance_body_laser = Matrix6d::Zero();
+};
+
+/// The sensors of a platform. A rig without thermal camera maps geometry only.
+struct Rig {
+  std::optional<ThermalCamera> thermal_camera;
+  std::optional<MountedCamera> visible_camera;
+  std::vector<Laser> lasers;
+};
+
+}  // namespace thermovox

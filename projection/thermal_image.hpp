@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "projection/time.hpp"
+
+namespace thermovox {
+
+/// Temperatures of a thermal camera, row by row, Celsius; NaN is "not known".
+struct ThermalImage {
+  int width = 0;
+  int height = 0;
+  std::vector<float> celsius;
+
+  [[nodiscard]] float at(int u, int v) const {
+    return celsius[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)];
+  }
+};
+
+/// One frame of the thermal camera. `stamp` is on the mission's clock: the camera's time offset is in it.
+struct ThermalFrame {
+  Time stamp;
+  std::shared_ptr<const ThermalImage> image;
+  std::string name;  ///< where it came from, for messages and reports
+};
+
+}  // namespace thermovox

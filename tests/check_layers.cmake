@@ -1,0 +1,17 @@
+# The arrows between the folders (CONTRIBUTING.md, "Layers"). Run: cmake -DROOT=<source dir> -P check_layers.cmake
+set(projection_may_use "-")  # nothing but itself
+set(mapping_may_use "projection")
+set(calibration_may_use "projection")
+set(io_may_use "projection|mapping")
+set(apps_may_use "projection|mapping|calibration|io")
+foreach(module projection mapping calibration io apps)
+  file(GLOB_RECURSE files ${ROOT}/${module}/*.hpp ${ROOT}/${module}/*.cpp)
+  foreach(file ${files})
+    file(STRINGS ${file} lines REGEX "#include \"(projection|mapping|calibration|io|apps|tests)/")
+    foreach(line ${lines})
+      if(NOT line MATCHES "\"(${module}|${${module}_may_use})/")
+        message(SEND_ERROR "${file}: ${module}/ must not know: ${line}")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
