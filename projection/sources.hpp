@@ -21,6 +21,8 @@ class FrameSource {
   virtual ~FrameSource() = default;
   /// The next frame; nullopt at the end. Throws DataError naming the file.
   [[nodiscard]] virtual std::optional<ThermalFrame> next() = 0;
+  /// The usual time from frame to frame; zero where there are fewer than two.
+  [[nodiscard]] virtual Duration period() const = 0;
 };
 
 }  // namespace thermovox
