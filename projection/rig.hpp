@@ -15,6 +15,10 @@ namespace thermovox {
 struct MountedCamera {
   Camera camera;
   Pose T_body_camera;
+  /// Of fx fy cx cy, then the distortion coefficients the camera was given; empty when the rig does not say.
+  Eigen::MatrixXd covariance_intrinsics;
+  /// Of T_body_camera: R' = Exp(w) R, t' = t + v along the body's axes. Zero when the rig does not say.
+  Matrix6d covariance_body_camera = Matrix6d::Zero();
 };
 
 /// The thermal camera and what is known of its errors.
@@ -25,6 +29,8 @@ struct ThermalCamera {
   double netd = 0.05;        ///< noise of one pixel, one sigma, C
   double bias_sigma = 0.0;   ///< error common to a frame, one sigma, C (a Duo R is good to 5)
   double blur_px = 0.6;      ///< optics and pixel together, one sigma of a Gaussian, px
+  /// Of fx fy cx cy, then the distortion coefficients the camera was given; empty when the rig does not say.
+  Eigen::MatrixXd covariance_intrinsics;
 };
 
 enum class LaserKind { beam, scan, cloud };
