@@ -1,0 +1,67 @@
+#!/bin/bash
+# The one place of package lists (Debian 12 names), and the function that installs what is missing.
+# Source it from bash, or run it by hand:  .ci/packages.sh build test
+# shellcheck disable=SC2034  # the lists are used by name
+
+# What a user needs to build and run thermovox.
+packages_build=(
+  g++ cmake ninja-build pkg-config
+  libeigen3-dev libpcl-dev libflann-dev liboctomap-dev libopencv-dev libceres-dev
+  libyaml-cpp-dev libtiff-dev libsqlite3-dev libzstd-dev
+  libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
+)
+# What the tests and benchmarks need besides. ccache and mold are used where they are found.
+packages_test=(libgtest-dev libgmock-dev libbenchmark-dev python3-minimal sqlite3 ccache mold)
+# Sanitizers and fuzz targets.
+packages_sanitizers=(clang libclang-rt-14-dev)
+# Formatting, and the scripts' own checks.
+packages_lint=(cmake clang-format-14 shellcheck)
+# clang-tidy, for the preset `tidy` (by hand).
+packages_tidy=(clang clang-tidy-14)
+# Programs to look at results with: CloudCompare, octovis, PCL's viewer.
+packages_view=(cloudcompare octovis pcl-tools)
+
+# install_packages <purpose>...: installs the packages of these purposes that are missing; as root or with
+# sudo. Costs nothing where all are there.
+install_packages() {
+  if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+    echo "packages.sh: this system has no apt; please install what the lists in .ci/packages.sh name ($*)" >&2
+    echo "             by the means of your distribution; going on with what is there" >&2
+    return 0
+  fi
+  local purpose package
+  local -a missing=()
+  for purpose in "$@"; do
+    local -n list="packages_${purpose}"
+    for package in "${list[@]}"; do
+      is_installed "${package}" || missing+=("${package}")
+    done
+    unset -n list
+  done
+  [ "${#missing[@]}" -eq 0 ] || apt_install "${missing[@]}"
+}
+
+is_installed() {
+  [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
+}
+
+apt_install() {
+  local -a as_root=(env)
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo > /dev/null; then
+      echo "packages.sh: missing: $*" >&2
+      echo "packages.sh: to install them this must run as root, or sudo must be there" >&2
+      return 1
+    fi
+    as_root=(sudo env)
+  fi
+  local -a apt=("${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=900 -o Dpkg::Use-Pty=0 -y)
+  echo "installing $# packages: $*"
+  "${apt[@]}" -q=2 update < /dev/null &&
+    "${apt[@]}" -q=2 install --no-install-recommends "$@" < /dev/null
+}
+
+if [ "${BASH_SOURCE[0]}" = "$0" ]; then
+  set -euo pipefail
+  install_packages "$@"
+fi
