@@ -19,12 +19,28 @@ struct CellKey {
 /// The largest |key| a map holds; further out a coordinate does not fit (1638 km at 0.05 m).
 inline constexpr std::int32_t kMaxCellKey = 1 << 25;
 
-/// The cell that holds p_world (metres): floor(x / resolution), computed as OctoMap does, as a product with
-/// the inverse. Precondition: finite and within kMaxCellKey.
+/// OctoMap's keys have 16 bits: its maps end this many cells from the origin.
+inline constexpr std::int32_t kOctomapReach = 1 << 15;
+
+/// A coordinate as the map takes it, metres: rounded to 32-bit float within OctoMap's reach, because
+/// OctoMap's points are floats and a laser that flies at exactly 0.7 m must hit the same cells in both.
+/// Further out a float would be coarser than a cell, so there the double stays.
+[[nodiscard]] inline double mapCoordinate(double coordinate, double inverse_resolution) {
+  const bool near = std::abs(coordinate * inverse_resolution) < kOctomapReach;
+  return near ? static_cast<double>(static_cast<float>(coordinate)) : coordinate;
+}
+
+/// Index along one axis of the cell that holds a coordinate (metres): floor(x / resolution), computed as
+/// OctoMap does, as a product with the inverse.
+[[nodiscard]] inline std::int32_t cellIndex(double coordinate, double inverse_resolution) {
+  return static_cast<std::int32_t>(
+      std::floor(inverse_resolution * mapCoordinate(coordinate, inverse_resolution)));
+}
+
+/// The cell that holds p_world (metres). Precondition: finite and within kMaxCellKey.
 [[nodiscard]] inline CellKey cellKey(const Eigen::Vector3d& p_world, double inverse_resolution) {
-  return {static_cast<std::int32_t>(std::floor(inverse_resolution * p_world.x())),
-          static_cast<std::int32_t>(std::floor(inverse_resolution * p_world.y())),
-          static_cast<std::int32_t>(std::floor(inverse_resolution * p_world.z()))};
+  return {cellIndex(p_world.x(), inverse_resolution), cellIndex(p_world.y(), inverse_resolution),
+          cellIndex(p_world.z(), inverse_resolution)};
 }
 
 /// Cells are kept in blocks of 8 x 8 x 8.

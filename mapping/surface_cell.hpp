@@ -1,8 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 
 #include "mapping/cell_key.hpp"
+#include "mapping/sum96.hpp"
 #include "projection/time.hpp"
 
 namespace thermovox {
@@ -18,21 +21,69 @@ struct TemperatureObservation {
 /// What a cell knows of the surface in it. All sums are integers in fixed point, so that adding is exact and
 /// the result does not depend on the order (West's and Chan's updates would, in the last bits).
 /// observations == 0 is the ONLY test for "no temperature": 0 C is one.
+///
+/// Units, and why nothing overflows: a temperature is taken within [-273.15, 3000] C and counted from
+/// absolute zero in 2^-16 C, so t < 2^27.7; a sigma is taken within [0.01, 100] C and its weight 1 / sigma^2
+/// counted in 2^-18 / C^2, so w <= 10^4 * 2^18 < 2^31.3. Over 2^32 observations w adds up to less than 2^63.3
+/// (64 bits), w t to less than 2^91 (96 bits) and w t^2 / 2^24 to less than 2^94.7 (96 bits). The bits that w
+/// t^2 loses are worth at most 2^-8 C^2 / w: 1e-4 C^2 where sigma is 100 C, 1e-12 where it is 0.01.
 struct SurfaceCell {
-  /// Sum over the returns of their place within the cell, in 1/256 of the cell's edge.
-  std::uint32_t offset_sum[3] = {0, 0, 0};
-  std::uint32_t returns = 0;       ///< laser returns that hit the cell; sums stop at kMaxReturns
+  static constexpr double kMinCelsius = -273.15, kMaxCelsius = 3000.0;
+  static constexpr double kMinSigma = 0.01, kMaxSigma = 100.0;
+  /// Returns after which a cell's mean position stands still (its sums hold no more).
+  static constexpr std::uint32_t kMaxReturns = 1U << 24;
+
+  /// The view with the most pixels on the cell.
+  struct View {
+    float range;      ///< camera to point, metres, to the centimetre; 655.35 at most
+    float incidence;  ///< radians, to 1e-4; NaN unknown
+  };
+
+  std::uint64_t weight_sum = 0;  ///< of w
+  std::int64_t first_ns = 0;     ///< stamp of the first temperature
+  std::int64_t last_ns = 0;      ///< and of the last
+  Sum96 weighted_sum;            ///< of w t
+  Sum96 weighted_square_sum;     ///< of w t^2 / 2^24
+  /// Sum over the returns of their place within the cell, in 1/256 of the cell's edge, rounded down.
+  std::array<std::uint32_t, 3> offset_sum{};
+  std::uint32_t returns = 0;       ///< laser returns that hit the cell
   std::uint32_t observations = 0;  ///< temperatures
   float min_celsius = 0.0F;
   float max_celsius = 0.0F;
-  float best_range = 0.0F;      ///< camera to point at the view with the smallest sigma, metres
-  float best_incidence = 0.0F;  ///< of that view, radians; NaN unknown
-  float best_sigma = 0.0F;      ///< of that view, C
-  std::int64_t first_ns = 0;    ///< stamp of the first temperature
-  std::int64_t last_ns = 0;     ///< and of the last
-  std::uint64_t weight_sum = 0;            ///< of 1 / sigma^2, in units of kWeightUnit
-  std::int64_t weighted_sum = 0;           ///< weight x temperature, in kWeightUnit x kTemperatureUnit
-  unsigned __int128 weighted_square_sum = 0;  ///< weight x temperature^2
+  std::uint16_t best_range_cm = 0;
+  std::uint16_t best_incidence = 0;  ///< 1e-4 radians; kUnknownIncidence
+
+  static constexpr std::uint16_t kUnknownIncidence = 0xFFFF;
+
+  /// Adds a laser return at `offset` within the cell, in edges: [0, 1) on each axis, clamped to it.
+  void addReturn(const Eigen::Vector3d& offset);
+
+  /// Adds one temperature with weight 1 / sigma^2 and Huber's guard against the cell's own statistics, which
+  /// must be of the same mission: once four observations are in, one that is more than 2.5 standard
+  /// deviations off the mean is weighted down in proportion, so that a passer-by or a glint does not move the
+  /// cell. Hence this, unlike merge(), depends on the order. The standard deviation is that of the
+  /// observation and of the cell's spread (at least 0.1 C) together. Throws DataError when the temperature or
+  /// its sigma is not finite.
+  void addTemperature(const TemperatureObservation& observation, Time stamp);
+
+  /// Adds another mission's statistics of the same cell: exact, in any order and grouping (the mean position
+  /// up to kMaxReturns).
+  void merge(const SurfaceCell& other);
+
+  /// Mean place of the returns within the cell, in edges. Precondition: returns > 0.
+  [[nodiscard]] Eigen::Vector3d meanOffset() const;
+  /// Weighted mean, C. Precondition for this and all below: observations > 0.
+  [[nodiscard]] double mean() const;
+  /// Standard deviation of the mean as the observations' own sigmas have it, C; the camera's bias apart.
+  [[nodiscard]] double sigmaOfMean() const;
+  /// Weighted standard deviation of the observations about their mean, C.
+  [[nodiscard]] double spread() const;
+  [[nodiscard]] Time first() const { return Time(Duration(first_ns)); }
+  [[nodiscard]] Time last() const { return Time(Duration(last_ns)); }
+  [[nodiscard]] View bestView() const;
+
+  friend bool operator==(const SurfaceCell&, const SurfaceCell&) = default;
 };
+static_assert(sizeof(SurfaceCell) == 80);
 
 }  // namespace thermovox

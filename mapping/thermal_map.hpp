@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "mapping/cell_key.hpp"
 #include "mapping/occupancy_model.hpp"
+#include "mapping/reading_marks.hpp"
 #include "mapping/surface_cell.hpp"
 
 namespace thermovox {
@@ -29,7 +31,8 @@ enum class Carving {
 
 /// 8 x 8 x 8 cells: log-odds for all, statistics only for those that held a surface.
 struct Block {
-  /// Log-odds in quanta of the map's OccupancyModel; kUnknown where no ray ever was.
+  /// Log-odds in quanta of the map's OccupancyModel; kUnknown where no ray ever was. Clamped within a
+  /// mission, the plain sum over missions.
   std::array<LogOdds, kBlockCells> log_odds;
   /// Statistics of the cells in `surface_index`, in that order.
   std::vector<SurfaceCell> surfaces;
@@ -39,7 +42,12 @@ struct Block {
   Block() { log_odds.fill(kUnknown); }
   [[nodiscard]] const SurfaceCell* surface(int index) const;
   [[nodiscard]] SurfaceCell& surfaceOrNew(int index);
+  /// Adds the block of another mission.
+  void merge(const Block& other);
 };
+
+/// What is known of a cell's occupancy.
+enum class Occupancy { unknown, free, occupied };
 
 /// The persistent thermal map: a block-hashed grid in the world frame with OctoMap's occupancy and, for cells
 /// that a return hit, the temperature statistics. Temperature never moves geometry. Not thread-safe for
@@ -50,12 +58,15 @@ class ThermalMap {
     double resolution = 0.05;  ///< edge of a cell, metres
     OccupancyModel::Options occupancy;
     void validate() const;  ///< throws ConfigError naming the field and its value
+    friend bool operator==(const Options&, const Options&) = default;
   };
 
   explicit ThermalMap(const Options& options);
 
-  /// Integrates one reading: within it a cell is updated once, hit before free (OctoMap's rule).
-  /// Points further out than kMaxCellKey are refused with DataError.
+  /// Integrates one reading: within it a cell is updated once, hit before free (OctoMap's rule); a return
+  /// without temperature still is geometry. For the map of ONE mission: what merge() added up over missions
+  /// would be clamped again and guarded against the wrong statistics. Throws DataError, leaving the map as it
+  /// was, when a point, an origin or a temperature is not finite or lies further out than kMaxCellKey.
   void integrate(std::span<const MappedReturn> reading, Carving carving);
 
   /// Adds a map of the same resolution and occupancy model (the map of another mission): log-odds add,
@@ -66,9 +77,12 @@ class ThermalMap {
   [[nodiscard]] double resolution() const { return options_.resolution; }
   [[nodiscard]] const OccupancyModel& occupancyModel() const { return model_; }
 
-  [[nodiscard]] CellKey keyOf(const Eigen::Vector3d& p_world) const { return cellKey(p_world, 1.0 / resolution()); }
+  [[nodiscard]] CellKey keyOf(const Eigen::Vector3d& p_world) const {
+    return cellKey(p_world, 1.0 / resolution());
+  }
   [[nodiscard]] Eigen::Vector3d centerOf(const CellKey& key) const;
-  /// Log-odds of a cell (natural logarithm); nullopt where no ray ever was.
+  [[nodiscard]] Occupancy occupancy(const CellKey& key) const;
+  /// Log-odds of a cell (natural logarithm), clamped; nullopt where no ray ever was.
   [[nodiscard]] std::optional<double> logOdds(const CellKey& key) const;
   /// Statistics of a cell; null where no return ever hit.
   [[nodiscard]] const SurfaceCell* surface(const CellKey& key) const;
@@ -76,18 +90,25 @@ class ThermalMap {
   [[nodiscard]] std::size_t blockCount() const { return blocks_.size(); }
   [[nodiscard]] std::size_t surfaceCount() const;
   [[nodiscard]] const Block* block(const BlockKey& key) const;
-  /// Puts a block as it was read from a station; replaces one that is there.
+  /// Puts a block as it was read from a station or an OctoMap; replaces one that is there.
   void setBlock(const BlockKey& key, Block block);
   /// All blocks in ascending order of their keys (x first), so that two runs write identical files.
   [[nodiscard]] std::vector<BlockKey> sortedBlockKeys() const;
 
  private:
+  void check(std::span<const MappedReturn> reading) const;
+  void updateOccupancy(std::span<const MappedReturn> reading, Carving carving);
+  void updateSurfaces(std::span<const MappedReturn> reading);
+  [[nodiscard]] Block& blockOrNew(const BlockKey& key);
+
   Options options_;
   OccupancyModel model_;
+  ReadingMarks marks_;  ///< of the reading at hand; empty between readings
   std::unordered_map<BlockKey, std::unique_ptr<Block>, BlockKeyHash> blocks_;
 };
 
-/// Calls visit(key, surface_cell) for every cell that a return hit, blocks in key order, cells in index order.
+/// Calls visit(key, surface_cell) for every cell that a return hit, blocks in key order, cells in index
+/// order.
 template <typename Visitor>
 void forEachSurface(const ThermalMap& map, Visitor&& visit) {
   for (const BlockKey& block_key : map.sortedBlockKeys()) {
