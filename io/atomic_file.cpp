@@ -1,6 +1,7 @@
 #include "io/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -41,7 +42,8 @@ void checkOutput(const std::filesystem::path& path, Existing existing) {
   }
 }
 
-AtomicFile::AtomicFile(std::filesystem::path path, Existing existing) : path_(std::move(path)), existing_(existing) {
+AtomicFile::AtomicFile(std::filesystem::path path, Existing existing)
+    : path_(std::move(path)), existing_(existing) {
   checkOutput(path_, existing_);
   std::string name = path_.string() + ".XXXXXX";
   descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "projection/rig.hpp"
+#include "projection/sources.hpp"
+
+namespace thermovox {
+
+/// A recording of the thermal camera in a mission folder.
+struct FrameRecording {
+  std::filesystem::path list;               ///< thermal.csv: `timestamp,file[,page]`
+  std::filesystem::path folder;             ///< what the list's files are relative to
+  Duration time_offset = Duration::zero();  ///< added to the stamps
+};
+
+/// A source that reads the frames one at a time. It goes through the list once at the start, for the frames'
+/// period (the median of their distances), and holds one image at a time.
+/// Throws DataError naming file and line of what is wrong with the list; next() also for an image that is
+/// missing, damaged or not of the camera's size.
+[[nodiscard]] std::unique_ptr<FrameSource> readFrames(const FrameRecording& recording,
+                                                      const ThermalCamera& camera);
+
+}  // namespace thermovox
