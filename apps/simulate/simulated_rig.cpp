@@ -1,0 +1,95 @@
+#include "apps/simulate/simulated_rig.hpp"
+
+#include <initializer_list>
+#include <numbers>
+
+namespace thermovox::simulate {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+Eigen::Quaterniond rollPitchYaw(double roll_deg, double pitch_deg, double yaw_deg) {
+  return (Eigen::AngleAxisd(yaw_deg * kDegree, Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(pitch_deg * kDegree, Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(roll_deg * kDegree, Eigen::Vector3d::UnitX()))
+      .normalized();
+}
+
+Intrinsics withDistortion(Intrinsics in, std::initializer_list<double> coefficients) {
+  int i = kDistortion;
+  for (const double coefficient : coefficients) in.parameters[i++] = coefficient;
+  in.distortion_count = static_cast<int>(coefficients.size());
+  return in;
+}
+
+Intrinsics makeIntrinsics(LensModel lens) {
+  Intrinsics in;
+  in.width_px = 160;
+  in.height_px = 120;
+  in.model = lens;
+  in.parameters = {150.7, 150.2, 80.4, 58.6};
+  switch (lens) {
+    case LensModel::brown_conrady:
+      return withDistortion(in, {-0.232, 0.084, -0.0009, 0.0011, 0.0});
+    case LensModel::kannala_brandt:  // a wider lens: 84 degrees across
+      in.parameters[kFx] = 108.4;
+      in.parameters[kFy] = 108.1;
+      return withDistortion(in, {0.031, -0.012, 0.004, -0.0011});
+    case LensModel::pinhole:
+      break;
+  }
+  return in;
+}
+
+Laser makeLaser(const SimulationOptions& options) {
+  Laser laser;
+  laser.kind = options.laser;
+  laser.T_body_laser = {rollPitchYaw(-0.4, 0.7, 0.9), {0.09, 0.05, 0.07}};
+  laser.range_sigma = options.range_sigma;
+  laser.range_bias_sigma = options.errors.range_bias_sigma;
+  laser.covariance_body_laser = options.errors.covariance_body_laser;
+  switch (options.laser) {
+    case LaserKind::beam:
+      laser.range_min = 0.05;
+      laser.range_max = 40.0;
+      break;
+    case LaserKind::scan:
+      laser.range_min = 0.1;
+      laser.range_max = 30.0;
+      laser.angle_min = -135.0 * kDegree;
+      laser.angle_increment = 0.25 * kDegree;
+      // 1440 steps a turn, of which the scanner measures 1081.
+      laser.time_increment = durationFromSeconds(1.0 / (options.scan_rate * 1440.0));
+      break;
+    case LaserKind::cloud:
+      laser.range_min = 0.3;
+      laser.range_max = 60.0;
+      laser.min_intensity = 100.0;
+      break;
+  }
+  return laser;
+}
+
+}  // namespace
+
+double cloudElevation(int beam) {
+  return (-15.0 + 30.0 * beam / (kCloudBeams - 1)) * kDegree;
+}
+
+Rig makeRig(const SimulationOptions& options) {
+  // The optical axes: x right, y down, z forward of a camera that looks along the body's x.
+  Eigen::Matrix3d R_body_optical;
+  R_body_optical << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  const Eigen::Quaterniond mount = rollPitchYaw(0.8, -0.6, -1.1);
+  ThermalCamera thermal{Camera(makeIntrinsics(options.lens)),
+                        {(mount * Eigen::Quaterniond(R_body_optical)).normalized(), {0.11, -0.04, -0.03}}};
+  thermal.netd = options.netd;
+  thermal.blur_px = options.blur_px;
+  thermal.bias_sigma = options.errors.camera_bias_sigma;
+  Rig rig;
+  rig.thermal_camera = thermal;
+  rig.lasers.push_back(makeLaser(options));
+  return rig;
+}
+
+}  // namespace thermovox::simulate

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "apps/simulate/flight.hpp"
+#include "apps/simulate/hall.hpp"
+#include "apps/simulate/simulation_options.hpp"
+#include "projection/mission.hpp"
+
+namespace thermovox::simulate {
+
+/// A flight with everything that is true of it: what the files will say and what really is.
+class Simulation {
+ public:
+  /// Throws ConfigError when an option cannot be used.
+  explicit Simulation(const SimulationOptions& options);
+
+  [[nodiscard]] const SimulationOptions& options() const { return options_; }
+  [[nodiscard]] const Hall& hall() const { return hall_; }
+
+  /// The rig as its file tells it.
+  [[nodiscard]] const Rig& rig() const { return rig_; }
+  /// Poses as the trajectory's file tells them; they reach 0.05 s beyond the measurements on both sides.
+  [[nodiscard]] std::vector<StampedPose> writtenPoses() const;
+
+  /// The true pose of the body, which differs from the written one by the pose's drawn error.
+  [[nodiscard]] Pose truePose(Time stamp) const;
+  [[nodiscard]] const Pose& trueBodyLaser() const { return T_body_laser_; }
+  /// The drawn error of all ranges, metres.
+  [[nodiscard]] double rangeBias() const { return range_bias_; }
+
+  /// Thermal frames and sweeps of the laser that the flight has, and their stamps.
+  [[nodiscard]] std::size_t frameCount() const;
+  [[nodiscard]] Time frameStamp(std::size_t frame) const;
+  [[nodiscard]] std::size_t sweepCount() const;
+  [[nodiscard]] Time sweepStamp(std::size_t sweep) const;
+
+ private:
+  SimulationOptions options_;
+  Hall hall_;
+  Flight flight_;
+  Rig rig_;
+  Pose T_body_laser_;
+  Eigen::Quaterniond pose_rotation_error_ = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d pose_translation_error_ = Eigen::Vector3d::Zero();
+  double range_bias_ = 0.0;
+};
+
+}  // namespace thermovox::simulate

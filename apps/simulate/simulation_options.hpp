@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "projection/camera_model.hpp"
+#include "projection/pose.hpp"
+#include "projection/rig.hpp"
+
+namespace thermovox::simulate {
+
+/// Errors that a mission's own files do not know of. They are drawn once a mission (the bias: once a frame)
+/// from the covariances given here, which the rig and the mission then declare. All zero: the files are exact
+/// but for the noise of the sensors.
+struct DeclaredErrors {
+  /// Of T_body_laser: the true R = Exp(w) R_written, t = t_written + v; w (radians), v (metres), body's axes.
+  Matrix6d covariance_body_laser = Matrix6d::Zero();
+  double pose_rotation_sigma =
+      0.0;  ///< radians an axis; the true R = Exp(w) R_written, w in the world's axes
+  double pose_translation_sigma = 0.0;  ///< metres an axis
+  double camera_bias_sigma = 0.0;       ///< common to one thermal frame, C
+  double range_bias_sigma = 0.0;        ///< common to all ranges, metres
+};
+
+/// What to fly, with what, how well.
+struct SimulationOptions {
+  LaserKind laser = LaserKind::cloud;
+  std::uint64_t seed = 1;                  ///< of hall, flight and noise
+  std::optional<std::uint64_t> hall_seed;  ///< of the hall alone, to fly the same hall again; default `seed`
+  double duration = 6.0;                   ///< seconds of measuring
+
+  LensModel lens = LensModel::brown_conrady;
+  double netd = 0.05;       ///< noise of a pixel, one sigma, C
+  double blur_px = 0.6;     ///< optics and pixel together, one sigma, px
+  int supersampling = 3;    ///< rays a pixel and axis
+  double frame_rate = 5.0;  ///< thermal frames a second
+
+  double range_sigma = 0.01;    ///< along the ray, one sigma, metres
+  double outlier_share = 0.01;  ///< of a cloud's points: weak echoes off the surface, 0..1
+  double pose_rate = 100.0;     ///< poses a second
+  double beam_rate = 100.0;     ///< readings a second
+  double scan_rate = 40.0;      ///< sweeps a second
+  double cloud_rate = 10.0;     ///< turns a second
+
+  DeclaredErrors errors;
+  unsigned threads = 2;  ///< the result does not depend on it
+
+  /// Throws ConfigError naming the option, its value and what was expected.
+  void validate() const;
+};
+
+}  // namespace thermovox::simulate

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "apps/simulate/simulation.hpp"
+
+namespace thermovox::simulate {
+
+/// The truth file's text (JSON): laser, seed, readings (laser echoes written), duration (seconds), boxes
+/// [low, high, Celsius], cyls [x, y, radius, top, Celsius], size [L, W, H], hotspots {position, delta, sigma,
+/// peak}, and the true T_body_laser; world frame, metres and Celsius.
+[[nodiscard]] std::string truthText(const Simulation& simulation, std::size_t readings);
+
+}  // namespace thermovox::simulate
