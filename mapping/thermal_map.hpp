@@ -94,6 +94,11 @@ class ThermalMap {
   void setBlock(const BlockKey& key, Block block);
   /// All blocks in ascending order of their keys (x first), so that two runs write identical files.
   [[nodiscard]] std::vector<BlockKey> sortedBlockKeys() const;
+  /// Calls visit(key, block) for every block in no particular order: for results that do not depend on it.
+  template <typename Visitor>
+  void forEachBlock(Visitor&& visit) const {
+    for (const auto& [key, block] : blocks_) visit(key, *block);
+  }
 
  private:
   void check(std::span<const MappedReturn> reading) const;

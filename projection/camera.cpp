@@ -12,7 +12,7 @@
 namespace thermovox {
 namespace {
 
-constexpr double kMinDepth = 1e-6;  // metres
+constexpr double kMinDepth = 1e-6;       // metres
 using Polynomial = std::vector<double>;  // coefficients, lowest power first
 
 Polynomial multiply(const Polynomial& a, const Polynomial& b) {
@@ -40,7 +40,8 @@ Polynomial sum(Polynomial a, const Polynomial& b, double factor) {
 double smallestPositiveRoot(Polynomial polynomial) {
   while (polynomial.size() > 1 && polynomial.back() == 0.0) polynomial.pop_back();
   if (polynomial.size() < 2) return std::numeric_limits<double>::infinity();
-  const Eigen::Map<const Eigen::VectorXd> coefficients(polynomial.data(), static_cast<Eigen::Index>(polynomial.size()));
+  const Eigen::Map<const Eigen::VectorXd> coefficients(polynomial.data(),
+                                                       static_cast<Eigen::Index>(polynomial.size()));
   const Eigen::PolynomialSolver<double, Eigen::Dynamic> solver(coefficients);
   double smallest = std::numeric_limits<double>::infinity();
   for (const std::complex<double>& root : solver.roots()) {
@@ -56,8 +57,8 @@ double smallestPositiveRoot(Polynomial polynomial) {
 double brownConradyRadius(std::span<const double, 8> d) {
   const Polynomial numerator{1.0, d[0], d[1], d[4]};
   const Polynomial denominator{1.0, d[5], d[6], d[7]};
-  const Polynomial growth = sum(multiply(derivative(numerator), denominator),
-                                multiply(numerator, derivative(denominator)), -1.0);
+  const Polynomial growth =
+      sum(multiply(derivative(numerator), denominator), multiply(numerator, derivative(denominator)), -1.0);
   Polynomial slope = multiply(numerator, denominator);
   slope = sum(slope, multiply(Polynomial{0.0, 2.0}, growth), 1.0);
   return std::sqrt(std::min(smallestPositiveRoot(slope), smallestPositiveRoot(denominator)));
@@ -96,7 +97,8 @@ Eigen::Matrix2d kannalaBrandtJacobian(std::span<const double, 8> d, const Eigen:
   const double theta = std::atan(r);
   const double t2 = theta * theta;
   const double theta_d = theta * (1.0 + t2 * (d[0] + t2 * (d[1] + t2 * (d[2] + t2 * d[3]))));
-  const double theta_d_slope = 1.0 + t2 * (3.0 * d[0] + t2 * (5.0 * d[1] + t2 * (7.0 * d[2] + t2 * 9.0 * d[3])));
+  const double theta_d_slope =
+      1.0 + t2 * (3.0 * d[0] + t2 * (5.0 * d[1] + t2 * (7.0 * d[2] + t2 * 9.0 * d[3])));
   const Eigen::Vector2d radial = n / r;
   const double along = theta_d_slope / (1.0 + r * r);
   const double across = theta_d / r;
@@ -105,8 +107,8 @@ Eigen::Matrix2d kannalaBrandtJacobian(std::span<const double, 8> d, const Eigen:
 
 void checkIntrinsics(const Intrinsics& in) {
   if (in.width_px <= 0 || in.height_px <= 0) {
-    throw ConfigError("camera: image size is " + std::to_string(in.width_px) + " x " + std::to_string(in.height_px) +
-                      ", expected positive");
+    throw ConfigError("camera: image size is " + std::to_string(in.width_px) + " x " +
+                      std::to_string(in.height_px) + ", expected positive");
   }
   if (!std::all_of(in.parameters.begin(), in.parameters.end(), [](double p) { return std::isfinite(p); })) {
     throw ConfigError("camera: a parameter is not a finite number");
@@ -120,8 +122,9 @@ void checkIntrinsics(const Intrinsics& in) {
                     (in.model == LensModel::brown_conrady && (n == 4 || n == 5 || n == 8)) ||
                     (in.model == LensModel::kannala_brandt && n == 4);
   if (!fits) {
-    throw ConfigError("camera: " + std::to_string(n) +
-                      " distortion coefficients, expected 0 (pinhole), 4, 5 or 8 (brown_conrady), 4 (kannala_brandt)");
+    throw ConfigError(
+        "camera: " + std::to_string(n) +
+        " distortion coefficients, expected 0 (pinhole), 4, 5 or 8 (brown_conrady), 4 (kannala_brandt)");
   }
 }
 
@@ -161,12 +164,18 @@ Camera::Camera(const Intrinsics& intrinsics) : intrinsics_(intrinsics) {
   valid_radius_squared_ = valid_radius_ * valid_radius_;
 }
 
-std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p_camera) const {
+std::optional<Eigen::Vector2d> Camera::projectUnbounded(const Eigen::Vector3d& p_camera) const {
   const double z = p_camera.z();
   if (!(z > kMinDepth)) return std::nullopt;  // written so that NaN is rejected too
   if (!(p_camera.head<2>().squaredNorm() < valid_radius_squared_ * z * z)) return std::nullopt;
-  const Eigen::Vector2d pixel = pixelFromCamera(intrinsics_.model, intrinsics_.parameters.data(), p_camera);
-  const bool inside = pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < width() - 0.5 && pixel.y() < height() - 0.5;
+  return pixelFromCamera(intrinsics_.model, intrinsics_.parameters.data(), p_camera);
+}
+
+std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p_camera) const {
+  const std::optional<Eigen::Vector2d> pixel = projectUnbounded(p_camera);
+  if (!pixel) return std::nullopt;
+  const bool inside =
+      pixel->x() >= -0.5 && pixel->y() >= -0.5 && pixel->x() < width() - 0.5 && pixel->y() < height() - 0.5;
   if (!inside) return std::nullopt;
   return pixel;
 }
@@ -180,7 +189,8 @@ std::optional<Eigen::Vector3d> Camera::rayFromPixel(const Eigen::Vector2d& pixel
   constexpr int kMaxIterations = 50;
   for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::Vector2d residual = distort(intrinsics_.model, p.data() + kDistortion, n) - target;
-    Eigen::Vector2d step = distortionJacobian(intrinsics_.model, distortionOf(intrinsics_), n).inverse() * residual;
+    Eigen::Vector2d step =
+        distortionJacobian(intrinsics_.model, distortionOf(intrinsics_), n).inverse() * residual;
     // Stay on the monotonic branch: a step over its border would find the folded image of another ray.
     while ((n - step).norm() >= valid_radius_ && step.norm() > 1e-15) step *= 0.5;
     n -= step;

@@ -43,6 +43,9 @@ class Camera {
   /// radius, outside the image [-0.5, width - 0.5) x [-0.5, height - 0.5), or not finite.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_camera) const;
 
+  /// The same without asking whether the pixel lies inside the image.
+  [[nodiscard]] std::optional<Eigen::Vector2d> projectUnbounded(const Eigen::Vector3d& p_camera) const;
+
   /// The ray (x, y, 1) in the camera frame that the pixel looks along: the inverse of the projection by
   /// Newton's method. nullopt when no ray inside the valid radius maps to the pixel.
   [[nodiscard]] std::optional<Eigen::Vector3d> rayFromPixel(const Eigen::Vector2d& pixel) const;

@@ -72,7 +72,8 @@ template <typename T>
 Vec2<T> pixelFromCamera(LensModel model, const T* parameters, const Vec3<T>& p_camera) {
   const Vec2<T> n = p_camera.template head<2>() / p_camera.z();
   const Vec2<T> distorted = distort(model, parameters + kDistortion, n);
-  return {parameters[kFx] * distorted.x() + parameters[kCx], parameters[kFy] * distorted.y() + parameters[kCy]};
+  return {parameters[kFx] * distorted.x() + parameters[kCx],
+          parameters[kFy] * distorted.y() + parameters[kCy]};
 }
 
 }  // namespace thermovox

@@ -26,9 +26,9 @@ struct ThermalCamera {
   Camera camera;
   Pose T_body_camera;
   TLinear t_linear;
-  double netd = 0.05;        ///< noise of one pixel, one sigma, C
-  double bias_sigma = 0.0;   ///< error common to a frame, one sigma, C (a Duo R is good to 5)
-  double blur_px = 0.6;      ///< optics and pixel together, one sigma of a Gaussian, px
+  double netd = 0.05;       ///< noise of one pixel, one sigma, C
+  double bias_sigma = 0.0;  ///< error common to a frame, one sigma, C (a Duo R is good to 5)
+  double blur_px = 0.7;     ///< optics and pixel together, one sigma of a Gaussian, px
   /// Of fx fy cx cy, then the distortion coefficients the camera was given; empty when the rig does not say.
   Eigen::MatrixXd covariance_intrinsics;
 };
@@ -39,12 +39,12 @@ enum class LaserKind { beam, scan, cloud };
 struct Laser {
   LaserKind kind = LaserKind::beam;
   Pose T_body_laser;
-  double range_min = 0.0;          ///< metres; shorter returns are dropped
-  double range_max = 100.0;        ///< metres; longer returns are dropped
-  double range_sigma = 0.02;       ///< noise of one range, one sigma, metres
-  double range_bias_sigma = 0.0;   ///< error common to all readings, one sigma, metres
-  double min_intensity = 0.0;      ///< weaker returns are dropped
-  double angle_min = -0.75 * std::numbers::pi;  ///< scan: angle of the first range, radians
+  double range_min = 0.0;                           ///< metres; shorter returns are dropped
+  double range_max = 100.0;                         ///< metres; longer returns are dropped
+  double range_sigma = 0.02;                        ///< noise of one range, one sigma, metres
+  double range_bias_sigma = 0.0;                    ///< error common to all readings, one sigma, metres
+  double min_intensity = 0.0;                       ///< weaker returns are dropped
+  double angle_min = -0.75 * std::numbers::pi;      ///< scan: angle of the first range, radians
   double angle_increment = std::numbers::pi / 720;  ///< scan: radians from range to range
   Duration time_increment = Duration::zero();       ///< scan: time from range to range
   /// Of T_body_laser (the camera's pose is taken as exact, so this is the pair's): R' = Exp(w) R,

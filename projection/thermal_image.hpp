@@ -16,7 +16,8 @@ struct ThermalImage {
   std::vector<float> celsius;
 
   [[nodiscard]] float at(int u, int v) const {
-    return celsius[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)];
+    return celsius[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                   static_cast<std::size_t>(u)];
   }
 };
 

@@ -45,7 +45,8 @@ std::optional<std::int64_t> parsePlainDecimal(std::string_view text) {
 std::optional<std::int64_t> parseThroughDouble(std::string_view text) {
   double seconds = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(seconds)) return std::nullopt;
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(seconds))
+    return std::nullopt;
   if (std::abs(seconds) > kLargestSeconds) return std::nullopt;
   return std::llround(seconds * 1e9);
 }

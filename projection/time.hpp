@@ -29,7 +29,9 @@ using Time = SensorClock::time_point;
   return std::chrono::duration<double>(duration).count();
 }
 /// Unix seconds as a double: exact to about a quarter of a microsecond, for outputs that have no better type.
-[[nodiscard]] constexpr double toUnixSeconds(Time time) { return toSeconds(time.time_since_epoch()); }
+[[nodiscard]] constexpr double toUnixSeconds(Time time) {
+  return toSeconds(time.time_since_epoch());
+}
 
 /// Reads decimal seconds ("1700000000.199999809", "32.9", "1.7e9") to the nanosecond without passing through
 /// a double. nullopt when the text is not one finite number or leaves the range of 64-bit nanoseconds.

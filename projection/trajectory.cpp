@@ -17,18 +17,20 @@ Trajectory::Trajectory(std::vector<StampedPose> poses, Duration max_gap)
   if (max_gap <= Duration::zero()) {
     throw ConfigError("max_gap: expected more than 0 s, found " + std::to_string(toSeconds(max_gap)) + " s");
   }
-  const auto disorder = std::adjacent_find(
-      poses_.begin(), poses_.end(), [](const auto& a, const auto& b) { return b.stamp <= a.stamp; });
+  const auto disorder = std::adjacent_find(poses_.begin(), poses_.end(),
+                                           [](const auto& a, const auto& b) { return b.stamp <= a.stamp; });
   if (disorder != poses_.end()) {
     throw DataError("trajectory: pose " + std::to_string(disorder - poses_.begin() + 1) + " has stamp " +
-                    formatTime(std::next(disorder)->stamp) + ", expected later than " + formatTime(disorder->stamp));
+                    formatTime(std::next(disorder)->stamp) + ", expected later than " +
+                    formatTime(disorder->stamp));
   }
 }
 
 std::variant<Pose, NoPose> Trajectory::at(Time stamp) const {
   const auto next = std::lower_bound(poses_.begin(), poses_.end(), stamp, kByStamp);
   if (next != poses_.end() && next->stamp - stamp <= kSameStamp) return next->T_world_body;
-  if (next != poses_.begin() && stamp - std::prev(next)->stamp <= kSameStamp) return std::prev(next)->T_world_body;
+  if (next != poses_.begin() && stamp - std::prev(next)->stamp <= kSameStamp)
+    return std::prev(next)->T_world_body;
   if (next == poses_.begin()) return NoPose::before_start;
   if (next == poses_.end()) return NoPose::after_end;
 
@@ -36,7 +38,8 @@ std::variant<Pose, NoPose> Trajectory::at(Time stamp) const {
   if (previous.T_world_body == next->T_world_body) return previous.T_world_body;
   const Duration interval = next->stamp - previous.stamp;
   if (interval > max_gap_) return NoPose::gap;
-  const double fraction = static_cast<double>((stamp - previous.stamp).count()) / static_cast<double>(interval.count());
+  const double fraction =
+      static_cast<double>((stamp - previous.stamp).count()) / static_cast<double>(interval.count());
   return interpolate(previous.T_world_body, next->T_world_body, fraction);
 }
 

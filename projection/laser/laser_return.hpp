@@ -11,8 +11,8 @@ namespace thermovox {
 
 /// One echo of a laser beam, of whatever kind of laser.
 struct LaserReturn {
-  Time stamp;                 ///< of this very echo
-  Eigen::Vector3d p_laser;    ///< metres, laser frame: x forward, y left, z up
+  Time stamp;               ///< of this very echo
+  Eigen::Vector3d p_laser;  ///< metres, laser frame: x forward, y left, z up
   float intensity = std::numeric_limits<float>::quiet_NaN();  ///< NaN where the laser does not say
 
   /// The laser's own reading, metres (D of the paper's equation 10).
@@ -21,10 +21,10 @@ struct LaserReturn {
 
 /// What was left out while returns were made, by reason.
 struct DroppedReturns {
-  std::size_t no_return = 0;      ///< NaN, infinite or zero: the beam came back from nothing
-  std::size_t too_near = 0;       ///< under range_min
-  std::size_t too_far = 0;        ///< over range_max
-  std::size_t too_weak = 0;       ///< under min_intensity
+  std::size_t no_return = 0;  ///< NaN, infinite or zero: the beam came back from nothing
+  std::size_t too_near = 0;   ///< under range_min
+  std::size_t too_far = 0;    ///< over range_max
+  std::size_t too_weak = 0;   ///< under min_intensity
 
   [[nodiscard]] std::size_t total() const { return no_return + too_near + too_far + too_weak; }
   DroppedReturns& operator+=(const DroppedReturns& other) {

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace thermovox {
+
+// One verb, one file: parse, one library call, one report.
+void addSimulate(CLI::App& app);
+void addMap(CLI::App& app);
+void addExport(CLI::App& app);
+void addInfo(CLI::App& app);
+void addOverlay(CLI::App& app);
+
+}  // namespace thermovox
