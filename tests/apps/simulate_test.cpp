@@ -13,6 +13,7 @@
 #include "apps/simulate/mission_writer.hpp"
 #include "apps/simulate/simulation.hpp"
 #include "apps/simulate/thermal_render.hpp"
+#include "io/mission_folder.hpp"
 #include "projection/error.hpp"
 #include "projection/laser/multi_beam.hpp"
 #include "projection/laser/planar_scanner.hpp"
@@ -217,6 +218,45 @@ TEST(SimulateMission, TruthHasAllKeysAndTheHallItself) {
     ASSERT_EQ(truth.at("hotspots").size(), simulation.hall().hotSpots().size());
     for (const char* key : {"position", "delta", "sigma", "peak"})
       EXPECT_TRUE(truth["hotspots"][0].contains(key));
+  }
+}
+
+TEST(SimulateMission, OpensAsAMissionWithEveryReadingAndFrame) {
+  for (const LaserKind kind : kKinds) {
+    const test::TestFolder folder;
+    SimulationOptions options = optionsOf(kind, 1.0);
+    options.errors.pose_rotation_sigma = 0.001;
+    options.errors.covariance_body_laser = 1e-6 * Matrix6d::Identity();
+    simulateMission(options, folder / "hall");
+    OpenedMission opened = openMission(folder / "hall");
+    const Simulation simulation(options);
+    EXPECT_EQ(opened.mission.name, "hall");
+    EXPECT_EQ(opened.mission.pose_rotation_sigma, 0.001);
+    ASSERT_EQ(opened.mission.rig.lasers.size(), 1U);
+    EXPECT_EQ(opened.mission.rig.lasers[0].kind, kind);
+    EXPECT_EQ(opened.mission.rig.lasers[0].covariance_body_laser(4, 4), 1e-6);
+    EXPECT_EQ(opened.mission.trajectory.poses().size(), simulation.writtenPoses().size());
+    for (std::size_t sweep = 0; sweep < simulation.sweepCount(); ++sweep) {
+      const std::optional<Reading> reading = opened.readings->next();
+      const Reading expected = readSweep(simulation, sweep);
+      ASSERT_TRUE(reading);
+      EXPECT_EQ(reading->stamp, expected.stamp);
+      ASSERT_EQ(reading->returns.size(), expected.returns.size());
+      for (std::size_t i = 0; i < expected.returns.size(); ++i) {
+        ASSERT_EQ(reading->returns[i].stamp, expected.returns[i].stamp);
+        ASSERT_LT((reading->returns[i].p_laser - expected.returns[i].p_laser).norm(), 1e-4);  // four decimals
+      }
+    }
+    EXPECT_FALSE(opened.readings->next());
+    const ThermalRenderer renderer(simulation);
+    for (std::size_t frame = 0; frame < simulation.frameCount(); ++frame) {
+      const std::optional<ThermalFrame> read = opened.frames->next();
+      ASSERT_TRUE(read);
+      EXPECT_EQ(read->stamp, simulation.frameStamp(frame));
+      const float first = simulation.rig().thermal_camera->t_linear.celsius(renderer.counts(frame)[0]);
+      EXPECT_EQ(read->image->at(0, 0), first);
+    }
+    EXPECT_FALSE(opened.frames->next());
   }
 }
 
