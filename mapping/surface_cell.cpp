@@ -10,6 +10,7 @@
 namespace thermovox {
 namespace {
 
+constexpr double kZeroCelsius = -274.0;  // where temperatures count from: whole, so that 0 C is exact
 constexpr double kOffsetSteps = 256.0;
 constexpr double kTemperatureSteps = 65536.0;  // a degree
 constexpr double kWeightSteps = 262144.0;      // 1 / C^2
@@ -64,7 +65,7 @@ void SurfaceCell::addTemperature(const TemperatureObservation& observation, Time
     weight *= std::min(1.0, limit / std::abs(celsius - mean()));
   }
   const auto w = static_cast<std::uint64_t>(std::max(std::llround(weight), 1LL));
-  const auto t = static_cast<std::uint64_t>(std::llround((celsius - kMinCelsius) * kTemperatureSteps));
+  const auto t = static_cast<std::uint64_t>(std::llround((celsius - kZeroCelsius) * kTemperatureSteps));
   SurfaceCell single;
   single.weight_sum = w;
   single.weighted_sum += static_cast<Uint128>(w) * t;
@@ -108,7 +109,7 @@ Eigen::Vector3d SurfaceCell::meanOffset() const {
 
 double SurfaceCell::mean() const {
   return static_cast<double>(weighted_sum.value()) / static_cast<double>(weight_sum) / kTemperatureSteps +
-         kMinCelsius;
+         kZeroCelsius;
 }
 
 double SurfaceCell::sigmaOfMean() const {
@@ -116,7 +117,7 @@ double SurfaceCell::sigmaOfMean() const {
 }
 
 double SurfaceCell::spread() const {
-  const double mean_from_zero = mean() - kMinCelsius;
+  const double mean_from_zero = mean() - kZeroCelsius;
   const double mean_square =
       static_cast<double>(weighted_square_sum.value()) / static_cast<double>(weight_sum) / kSquareSteps;
   return std::sqrt(std::max(mean_square - mean_from_zero * mean_from_zero, 0.0));

@@ -22,11 +22,11 @@ struct TemperatureObservation {
 /// the result does not depend on the order (West's and Chan's updates would, in the last bits).
 /// observations == 0 is the ONLY test for "no temperature": 0 C is one.
 ///
-/// Units, and why nothing overflows: a temperature is taken within [-273.15, 3000] C and counted from
-/// absolute zero in 2^-16 C, so t < 2^27.7; a sigma is taken within [0.01, 100] C and its weight 1 / sigma^2
-/// counted in 2^-18 / C^2, so w <= 10^4 * 2^18 < 2^31.3. Over 2^32 observations w adds up to less than 2^63.3
-/// (64 bits), w t to less than 2^91 (96 bits) and w t^2 / 2^24 to less than 2^94.7 (96 bits). The bits that w
-/// t^2 loses are worth at most 2^-8 C^2 / w: 1e-4 C^2 where sigma is 100 C, 1e-12 where it is 0.01.
+/// Units, and why nothing overflows: a temperature is taken within [-273.15, 3000] C and counted from -274 C
+/// in 2^-16 C, so t < 2^27.7; a sigma is taken within [0.01, 100] C and its weight 1 / sigma^2 counted in
+/// 2^-18 / C^2, so w <= 10^4 * 2^18 < 2^31.3. Over 2^32 observations w adds up to less than 2^63.3 (64 bits),
+/// w t to less than 2^91 (96 bits) and w t^2 / 2^24 to less than 2^94.7 (96 bits). The bits that w t^2 loses
+/// are worth at most 2^-8 C^2 / w: 1e-4 C^2 where sigma is 100 C, 1e-12 where it is 0.01.
 struct SurfaceCell {
   static constexpr double kMinCelsius = -273.15, kMaxCelsius = 3000.0;
   static constexpr double kMinSigma = 0.01, kMaxSigma = 100.0;

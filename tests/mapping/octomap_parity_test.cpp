@@ -1,0 +1,105 @@
+// The oracle for occupancy: OctoMap's insertPointCloud on the same returns.
+
+#include <bzlib.h>
+#include <gtest/gtest.h>
+#include <octomap/OcTree.h>
+
+#include <random>
+#include <sstream>
+
+#include "tests/support/octomap_oracle.hpp"
+#include "tests/support/recordings.hpp"
+
+namespace thermovox {
+namespace {
+
+using test::OctomapOracle;
+
+/// The content of a .bz2 file.
+std::string decompressed(const std::filesystem::path& file) {
+  std::string packed = test::bytesOf(file);
+  std::string content(std::size_t{64} << 20, '\0');
+  auto size = static_cast<unsigned>(content.size());
+  if (BZ2_bzBuffToBuffDecompress(content.data(), &size, packed.data(), static_cast<unsigned>(packed.size()),
+                                 0, 0) != BZ_OK) {
+    throw std::runtime_error("cannot decompress " + file.string());
+  }
+  content.resize(size);
+  return content;
+}
+
+std::vector<MappedReturn> recordedScan() {
+  std::istringstream text(decompressed(*test::recordings() / "laser/octomap/scan.dat.bz2"));
+  std::vector<MappedReturn> reading;
+  for (float x, y, z; text >> x >> y >> z;) reading.push_back({{x, y, z}, {0, 0, 0}, Time{}, {}});
+  return reading;
+}
+
+TEST(OctomapParity, OnARecordedScanAtSeveralResolutions) {
+  THERMOVOX_NEEDS_RECORDINGS();
+  const std::vector<MappedReturn> reading = recordedScan();
+  ASSERT_EQ(reading.size(), 88206U);
+  for (const double resolution : {0.05, 0.1, 0.25}) {
+    SCOPED_TRACE(resolution);
+    OctomapOracle oracle({.resolution = resolution});
+    oracle.integrate(reading);
+    oracle.expectParity();
+  }
+}
+
+TEST(OctomapParity, OnManyReadingsThatReachTheClamps) {
+  std::mt19937 rng(31);
+  std::uniform_real_distribution<double> coordinate(-2.0, 2.0), height(-1.0, 1.0);
+  OctomapOracle oracle({.resolution = 0.1});
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3d origin(0.3 * coordinate(rng), 0.3 * coordinate(rng), 0.2 * height(rng));
+    std::vector<MappedReturn> reading;
+    for (int j = 0; j < 200; ++j) {
+      reading.push_back({{coordinate(rng), coordinate(rng), height(rng)}, origin, Time{}, {}});
+    }
+    oracle.integrate(reading);
+  }
+  oracle.expectParity();
+}
+
+TEST(OctomapParity, OnALaserThatFliesExactlyOnTheBordersOfCells) {
+  std::mt19937 rng(32);
+  std::uniform_real_distribution<double> coordinate(-8.0, 8.0);
+  for (const double height : {0.0, 0.3, 0.7, 1.1, -0.6}) {
+    OctomapOracle oracle({.resolution = 0.1});
+    for (int i = 0; i < 10; ++i) {
+      std::vector<MappedReturn> reading;
+      for (int j = 0; j < 100; ++j) {
+        reading.push_back({{coordinate(rng), coordinate(rng), height}, {0.1 * i, 0.2, height}, Time{}, {}});
+      }
+      oracle.integrate(reading);
+    }
+    SCOPED_TRACE(height);
+    oracle.expectParity();
+  }
+}
+
+// With hit and miss in another proportion sums may come to lie within a quantum of the threshold, where
+// rounding decides; everywhere else the state is OctoMap's.
+TEST(OctomapParity, WithOtherSensorModels) {
+  std::mt19937 rng(33);
+  std::uniform_real_distribution<double> coordinate(-3.0, 3.0), hit(0.6, 0.9), miss(0.3, 0.45);
+  for (int model = 0; model < 5; ++model) {
+    OctomapOracle oracle({.resolution = 0.15, .occupancy = {hit(rng), miss(rng), 0.1, 0.97, 0.5}});
+    for (int i = 0; i < 30; ++i) {
+      std::vector<MappedReturn> reading;
+      for (int j = 0; j < 100; ++j) {
+        reading.push_back({{coordinate(rng), coordinate(rng), coordinate(rng)}, {0.1, 0.2, 0.3}, Time{}, {}});
+      }
+      oracle.integrate(reading);
+    }
+    const OctomapOracle::Comparison result = oracle.compare();
+    SCOPED_TRACE(model);
+    EXPECT_EQ(result.only_ours, 0U);
+    EXPECT_EQ(result.other_state_clearly, 0U);
+    EXPECT_LE(result.worst_log_odds, oracle.map().occupancyModel().quantum());
+  }
+}
+
+}  // namespace
+}  // namespace thermovox

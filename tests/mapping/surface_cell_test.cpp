@@ -1,0 +1,163 @@
+#include "mapping/surface_cell.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "projection/error.hpp"
+#include "tests/support/recordings.hpp"
+
+namespace thermovox {
+namespace {
+
+const Time kNoon(std::chrono::seconds(1'700'000'000));
+
+TemperatureObservation seen(double celsius, double sigma, float range = 5.0F, float incidence = 0.0F) {
+  return {static_cast<float>(celsius), static_cast<float>(sigma), range, incidence};
+}
+
+SurfaceCell randomCell(std::mt19937& rng) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  SurfaceCell cell;
+  const int returns = 1 + static_cast<int>(20 * unit(rng));
+  for (int i = 0; i < returns; ++i) cell.addReturn({unit(rng), unit(rng), unit(rng)});
+  const int temperatures = static_cast<int>(20 * unit(rng));
+  for (int i = 0; i < temperatures; ++i) {
+    const auto incidence = unit(rng) < 0.2 ? std::nanf("") : static_cast<float>(1.5 * unit(rng));
+    cell.addTemperature(
+        seen(-50 + 200 * unit(rng), 0.05 + unit(rng), static_cast<float>(20 * unit(rng)), incidence),
+        kNoon + std::chrono::milliseconds(static_cast<int>(1e6 * unit(rng))));
+  }
+  return cell;
+}
+
+SurfaceCell merged(SurfaceCell a, const SurfaceCell& b) {
+  a.merge(b);
+  return a;
+}
+
+TEST(SurfaceCell, TakesZeroCelsiusForATemperature) {
+  SurfaceCell cell;
+  EXPECT_EQ(cell.observations, 0U);
+  cell.addTemperature(seen(0.0, 0.1), kNoon);
+  EXPECT_EQ(cell.observations, 1U);
+  EXPECT_NEAR(cell.mean(), 0.0, 1e-9);
+  EXPECT_NEAR(cell.spread(), 0.0, 1e-4);
+  EXPECT_NEAR(cell.sigmaOfMean(), 0.1, 1e-6);
+}
+
+TEST(SurfaceCell, KeepsAConstantAfterManyObservations) {
+  SurfaceCell cell;
+  for (int i = 0; i < 100000; ++i) cell.addTemperature(seen(200.125, 0.05), kNoon);
+  EXPECT_NEAR(cell.mean(), 200.125, 1e-6);
+  EXPECT_NEAR(cell.spread(), 0.0, 1e-4);
+}
+
+TEST(SurfaceCell, AgreesWithWeightedStatisticsInDoubles) {
+  std::mt19937 rng(2);
+  std::normal_distribution<double> noise;
+  std::uniform_real_distribution<double> sigma_of(0.2, 0.6);
+  SurfaceCell cell;
+  double weights = 0.0, sum = 0.0, squares = 0.0;
+  for (int i = 0; i < 4; ++i) {  // so few that none is guarded
+    const double sigma = static_cast<float>(sigma_of(rng));
+    const double celsius = static_cast<float>(60.0 + sigma * noise(rng));
+    cell.addTemperature(seen(celsius, sigma), kNoon);
+    const double weight = 1.0 / (sigma * sigma);
+    weights += weight;
+    sum += weight * celsius;
+    squares += weight * celsius * celsius;
+  }
+  const double mean = sum / weights;
+  EXPECT_NEAR(cell.mean(), mean, 1e-4);
+  EXPECT_NEAR(cell.sigmaOfMean(), std::sqrt(1.0 / weights), 1e-6);
+  EXPECT_NEAR(cell.spread(), std::sqrt(squares / weights - mean * mean), 1e-4);
+}
+
+TEST(SurfaceCell, AveragesNoiseAwayWithoutBias) {
+  std::mt19937 rng(4);
+  std::normal_distribution<double> noise(0.0, 0.5);
+  SurfaceCell cell;
+  for (int i = 0; i < 10000; ++i) cell.addTemperature(seen(35.0 + noise(rng), 0.5), kNoon);
+  EXPECT_NEAR(cell.mean(), 35.0, 0.02);
+  EXPECT_NEAR(cell.spread(), 0.5, 0.02);
+  EXPECT_NEAR(cell.sigmaOfMean(), 0.005, 0.0005);  // Huber's weights cost a little
+}
+
+TEST(SurfaceCell, IsNotMovedByAPasserBy) {
+  SurfaceCell cell;
+  for (int i = 0; i < 50; ++i) cell.addTemperature(seen(20.0, 0.1), kNoon);
+  for (int i = 0; i < 5; ++i) cell.addTemperature(seen(35.0, 0.1), kNoon);
+  EXPECT_NEAR(cell.mean(), 20.0, 0.25);  // the plain mean would be 21.4
+  EXPECT_FLOAT_EQ(cell.max_celsius, 35.0F);
+  EXPECT_EQ(cell.observations, 55U);
+}
+
+TEST(SurfaceCell, RecoversWhenThePasserByCameFirst) {
+  SurfaceCell cell;
+  for (int i = 0; i < 4; ++i) cell.addTemperature(seen(35.0, 0.1), kNoon);
+  for (int i = 0; i < 100; ++i) cell.addTemperature(seen(20.0, 0.1), kNoon);
+  EXPECT_NEAR(cell.mean(), 20.0, 1.5);
+}
+
+TEST(SurfaceCell, HoldsTheExtremesOfItsRangeOverManyMerges) {
+  SurfaceCell cell;
+  cell.addTemperature(seen(3000.0, 0.01), kNoon);
+  for (int i = 0; i < 31; ++i) cell.merge(SurfaceCell(cell));
+  EXPECT_EQ(cell.observations, 1U << 31);
+  EXPECT_NEAR(cell.mean(), 3000.0, 1e-6);
+  EXPECT_NEAR(cell.spread(), 0.0, 1e-3);
+  SurfaceCell cold;
+  cold.addTemperature(seen(-500.0, 1000.0), kNoon);
+  EXPECT_NEAR(cold.mean(), -273.15, 1e-4);
+  EXPECT_NEAR(cold.sigmaOfMean(), 100.0, 1.5);  // 26 units of weight, rounded
+}
+
+TEST(SurfaceCell, MergesInAnyOrderAndGroupingBitForBit) {
+  std::mt19937 rng(9);
+  for (int i = 0; i < 300; ++i) {
+    const SurfaceCell a = randomCell(rng), b = randomCell(rng), c = randomCell(rng);
+    EXPECT_EQ(merged(a, b), merged(b, a));
+    EXPECT_EQ(merged(merged(a, b), c), merged(a, merged(b, c)));
+  }
+}
+
+TEST(SurfaceCell, KeepsFirstAndLastTimeAndTheViewWithMostPixels) {
+  SurfaceCell cell;
+  cell.addTemperature(seen(20, 0.1, 8.0F, 0.0F), kNoon);
+  cell.addTemperature(seen(20, 0.1, 4.0F, 0.5F), kNoon + std::chrono::seconds(5));
+  cell.addTemperature(seen(20, 0.1, 3.9F, 1.5F), kNoon - std::chrono::seconds(5));
+  EXPECT_EQ(cell.first(), kNoon - std::chrono::seconds(5));
+  EXPECT_EQ(cell.last(), kNoon + std::chrono::seconds(5));
+  EXPECT_NEAR(cell.bestView().range, 4.0, 0.005);
+  EXPECT_NEAR(cell.bestView().incidence, 0.5, 5e-5);
+}
+
+TEST(SurfaceCell, KnowsThatAnIncidenceIsUnknown) {
+  SurfaceCell cell;
+  cell.addTemperature(seen(20, 0.1, 8.0F, std::nanf("")), kNoon);
+  EXPECT_TRUE(std::isnan(cell.bestView().incidence));
+}
+
+TEST(SurfaceCell, RefusesWhatIsNotFinite) {
+  SurfaceCell cell;
+  EXPECT_THROW(cell.addTemperature(seen(std::nan(""), 0.1), kNoon), DataError);
+  EXPECT_THROW(cell.addTemperature(seen(20.0, std::nan("")), kNoon), DataError);
+  EXPECT_THROW(cell.addTemperature(seen(INFINITY, 0.1), kNoon), DataError);
+  EXPECT_EQ(cell, SurfaceCell());
+}
+
+TEST(SurfaceCell, AveragesThePlacesOfItsReturns) {
+  SurfaceCell cell;
+  cell.addReturn({0.25, 0.5, 0.999});
+  cell.addReturn({0.75, 0.5, 1.0 + 1e-9});
+  EXPECT_NEAR(cell.meanOffset().x(), 0.5, 1.0 / 256);
+  EXPECT_NEAR(cell.meanOffset().y(), 0.5, 1.0 / 256);
+  EXPECT_LT(cell.meanOffset().z(), 1.0);
+}
+
+}  // namespace
+}  // namespace thermovox
