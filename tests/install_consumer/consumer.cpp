@@ -1,10 +1,11 @@
 #include <iostream>
 #include <optional>
 
+#include "io/rig_file.hpp"
 #include "mapping/thermal_map.hpp"
 #include "projection/camera.hpp"
 
-/// Projects a point, puts it into a map and prints what came of both.
+/// Projects a point, puts it into a map, spells an empty rig, and prints what came of each.
 int main() {
   thermovox::Intrinsics intrinsics{160, 120, thermovox::LensModel::pinhole, {}, 0};
   intrinsics.parameters[thermovox::kFx] = intrinsics.parameters[thermovox::kFy] = 150.0;
@@ -21,5 +22,5 @@ int main() {
   map.integrate({&mapped, 1}, thermovox::Carving::octomap);
 
   std::cout << "pixel " << pixel->x() << " " << pixel->y() << ", cells with a surface " << map.surfaceCount()
-            << "\n";
+            << ", rig " << thermovox::rigText({});
 }
