@@ -1,0 +1,89 @@
+#include "io/palette.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace thermovox {
+namespace {
+
+// Evenly spaced colours of each table; between them the colour changes linearly.
+constexpr std::array kInferno{Rgb{0, 0, 4},      Rgb{27, 12, 65},   Rgb{74, 12, 107},  Rgb{120, 28, 109},
+                              Rgb{165, 44, 96},  Rgb{207, 68, 70},  Rgb{237, 105, 37}, Rgb{251, 155, 6},
+                              Rgb{247, 209, 61}, Rgb{252, 255, 164}};
+constexpr std::array kIronbow{Rgb{2, 0, 10},     Rgb{30, 0, 110},   Rgb{90, 0, 155},  Rgb{150, 0, 155},
+                              Rgb{195, 25, 120}, Rgb{225, 65, 40},  Rgb{240, 110, 5}, Rgb{250, 160, 0},
+                              Rgb{255, 210, 50}, Rgb{255, 250, 215}};
+constexpr std::array kRainbow{Rgb{20, 30, 160},  Rgb{0, 110, 250}, Rgb{0, 200, 220}, Rgb{40, 190, 70},
+                              Rgb{190, 220, 30}, Rgb{250, 190, 0}, Rgb{240, 90, 10}, Rgb{180, 10, 20}};
+constexpr std::array kGrey{Rgb{20, 20, 20}, Rgb{240, 240, 240}};
+
+std::span<const Rgb> tableOf(Palette palette) {
+  switch (palette) {
+    case Palette::inferno:
+      return kInferno;
+    case Palette::ironbow:
+      return kIronbow;
+    case Palette::rainbow:
+      return kRainbow;
+    case Palette::grey:
+      break;
+  }
+  return kGrey;
+}
+
+std::uint8_t blend(std::uint8_t a, std::uint8_t b, double share) {
+  return static_cast<std::uint8_t>(std::lround(a + share * (b - a)));
+}
+
+/// Linear between the order statistics around the percentile; reorders the values.
+double percentileOf(std::vector<float>& values, double percentile) {
+  const double place = std::clamp(percentile, 0.0, 100.0) / 100.0 * static_cast<double>(values.size() - 1);
+  const auto lower = values.begin() + static_cast<std::ptrdiff_t>(std::floor(place));
+  std::nth_element(values.begin(), lower, values.end());
+  const double share = place - std::floor(place);
+  if (share == 0.0) return *lower;
+  const float upper = *std::min_element(lower + 1, values.end());
+  return *lower + share * (upper - *lower);
+}
+
+}  // namespace
+
+std::optional<Palette> paletteOf(std::string_view name) {
+  if (name == "inferno") return Palette::inferno;
+  if (name == "ironbow") return Palette::ironbow;
+  if (name == "rainbow") return Palette::rainbow;
+  if (name == "grey") return Palette::grey;
+  return std::nullopt;
+}
+
+Rgb colourAt(Palette palette, double fraction) {
+  if (std::isnan(fraction)) return kUnknownColour;
+  const std::span<const Rgb> table = tableOf(palette);
+  const double place = std::clamp(fraction, 0.0, 1.0) * static_cast<double>(table.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), table.size() - 2);
+  const double share = place - static_cast<double>(below);
+  const Rgb& a = table[below];
+  const Rgb& b = table[below + 1];
+  return {blend(a.r, b.r, share), blend(a.g, b.g, share), blend(a.b, b.b, share)};
+}
+
+std::optional<TemperatureSpan> percentileSpan(std::span<const float> celsius, double low_percentile,
+                                              double high_percentile) {
+  std::vector<float> known;
+  known.reserve(celsius.size());
+  std::copy_if(celsius.begin(), celsius.end(), std::back_inserter(known),
+               [](float c) { return std::isfinite(c); });
+  if (known.empty()) return std::nullopt;
+  const double low = percentileOf(known, low_percentile);
+  const double high = percentileOf(known, high_percentile);
+  if (low < high) return TemperatureSpan{low, high};
+  return TemperatureSpan{low - 0.5, low + 0.5};
+}
+
+Rgb colourOf(double celsius, const TemperatureSpan& span, Palette palette) {
+  return colourAt(palette, (celsius - span.low) / (span.high - span.low));
+}
+
+}  // namespace thermovox

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace thermovox {
+
+/// Colour tables of thermal pictures. None holds 255 255 255, which OctoMap's colour tree takes for "unset".
+enum class Palette {
+  inferno,  ///< black, violet, orange, pale yellow: perceptually even (the table of matplotlib)
+  ironbow,  ///< black, blue, magenta, orange, cream: as thermal cameras show
+  rainbow,  ///< blue, cyan, green, yellow, red
+  grey,     ///< dark to light
+};
+
+struct Rgb {
+  std::uint8_t r = 0;
+  std::uint8_t g = 0;
+  std::uint8_t b = 0;
+  friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+/// What has no temperature is drawn in this grey.
+inline constexpr Rgb kUnknownColour{128, 128, 128};
+
+/// The palette of a name as it is written above; nullopt for any other.
+[[nodiscard]] std::optional<Palette> paletteOf(std::string_view name);
+
+/// Colour at a place of the palette, 0 (cold) to 1 (hot); what lies outside takes the end's colour, NaN is
+/// kUnknownColour.
+[[nodiscard]] Rgb colourAt(Palette palette, double fraction);
+
+/// The temperatures that the two ends of a palette stand for, Celsius.
+struct TemperatureSpan {
+  double low = 0.0;
+  double high = 1.0;
+  friend bool operator==(const TemperatureSpan&, const TemperatureSpan&) = default;
+};
+
+/// The span between two percentiles (0..100) of the temperatures, NaN left out; nullopt when nothing is left.
+/// Where both are equal the span is widened to one degree about them.
+[[nodiscard]] std::optional<TemperatureSpan> percentileSpan(std::span<const float> celsius,
+                                                            double low_percentile = 2.0,
+                                                            double high_percentile = 98.0);
+
+/// Colour of a temperature; NaN is kUnknownColour. Precondition: span.low < span.high.
+[[nodiscard]] Rgb colourOf(double celsius, const TemperatureSpan& span, Palette palette);
+
+}  // namespace thermovox
