@@ -62,13 +62,15 @@ lint() {
   local -a sources scripts
   mapfile -t sources < <(find apps calibration io mapping projection tests -name '*.[hc]pp' | sort)
   mapfile -t scripts < <(find .ci apps tests -type f \( -name '*.sh' -o -path .ci/run \) | sort)
+  local failed=no
   say "formatting of ${#sources[@]} sources"
-  clang-format-14 --dry-run -Werror "${sources[@]}"
+  clang-format-14 --dry-run -Werror "${sources[@]}" || failed=yes
   say "${#scripts[@]} scripts"
-  shellcheck --external-sources "${scripts[@]}"
+  shellcheck --external-sources "${scripts[@]}" || failed=yes
   say "layers and style"
-  cmake -DROOT="${PWD}" -P tests/check_layers.cmake
-  tests/check_style.sh
+  cmake -DROOT="${PWD}" -P tests/check_layers.cmake || failed=yes
+  tests/check_style.sh || failed=yes
+  [ "${failed}" = no ]
 }
 
 mkdir -p build
