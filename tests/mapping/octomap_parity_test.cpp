@@ -1,43 +1,21 @@
 // The oracle for occupancy: OctoMap's insertPointCloud on the same returns.
 
-#include <bzlib.h>
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
 #include <random>
-#include <sstream>
 
 #include "tests/support/octomap_oracle.hpp"
-#include "tests/support/recordings.hpp"
+#include "tests/support/recorded_scan.hpp"
 
 namespace thermovox {
 namespace {
 
 using test::OctomapOracle;
 
-/// The content of a .bz2 file.
-std::string decompressed(const std::filesystem::path& file) {
-  std::string packed = test::bytesOf(file);
-  std::string content(std::size_t{64} << 20, '\0');
-  auto size = static_cast<unsigned>(content.size());
-  if (BZ2_bzBuffToBuffDecompress(content.data(), &size, packed.data(), static_cast<unsigned>(packed.size()),
-                                 0, 0) != BZ_OK) {
-    throw std::runtime_error("cannot decompress " + file.string());
-  }
-  content.resize(size);
-  return content;
-}
-
-std::vector<MappedReturn> recordedScan() {
-  std::istringstream text(decompressed(*test::recordings() / "laser/octomap/scan.dat.bz2"));
-  std::vector<MappedReturn> reading;
-  for (float x, y, z; text >> x >> y >> z;) reading.push_back({{x, y, z}, {0, 0, 0}, Time{}, {}});
-  return reading;
-}
-
 TEST(OctomapParity, OnARecordedScanAtSeveralResolutions) {
   THERMOVOX_NEEDS_RECORDINGS();
-  const std::vector<MappedReturn> reading = recordedScan();
+  const std::vector<MappedReturn> reading = test::recordedScan();
   ASSERT_EQ(reading.size(), 88206U);
   for (const double resolution : {0.05, 0.1, 0.25}) {
     SCOPED_TRACE(resolution);
