@@ -29,20 +29,18 @@ install_packages() {
     echo "             by the means of your distribution; going on with what is there" >&2
     return 0
   fi
-  local purpose package
-  local -a missing=()
+  local purpose package installed
+  local -a wanted=() missing=()
   for purpose in "$@"; do
     local -n list="packages_${purpose}"
-    for package in "${list[@]}"; do
-      is_installed "${package}" || missing+=("${package}")
-    done
+    wanted+=("${list[@]}")
     unset -n list
   done
+  installed=$(dpkg-query --show --showformat='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2> /dev/null || true)
+  for package in "${wanted[@]}"; do
+    grep -q -x -F "installed ${package}" <<< "${installed}" || missing+=("${package}")
+  done
   [ "${#missing[@]}" -eq 0 ] || apt_install "${missing[@]}"
-}
-
-is_installed() {
-  [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
 }
 
 apt_install() {

@@ -15,7 +15,7 @@ thermovox=build/install/apps/thermovox
 # step <what> <command>...: runs the command with its output in the log, whose end is shown if it fails.
 step() {
   local since=${SECONDS}
-  printf '%-44s' "$1"
+  printf '%-52s' "$1"
   if ! "${@:2}" >> "${log}" 2>&1; then
     echo "failed; the end of ${log}:"
     tail -n 12 "${log}"
