@@ -52,6 +52,9 @@ Duration cameraTimeOffset(const YamlMap& map) {
 fs::path missionFile(const fs::path& folder) {
   std::error_code error;
   if (fs::is_directory(folder, error)) return folder / "mission.yaml";
+  if (!fs::exists(folder, error)) {
+    throw DataError(folder.string() + ": no such mission, expected a folder with a mission.yaml");
+  }
   return folder;
 }
 
