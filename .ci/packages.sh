@@ -32,6 +32,10 @@ install_packages() {
   local purpose package installed
   local -a wanted=() missing=()
   for purpose in "$@"; do
+    if ! declare -p "packages_${purpose}" > /dev/null 2>&1; then
+      echo "packages.sh: there is no list packages_${purpose}" >&2
+      return 1
+    fi
     local -n list="packages_${purpose}"
     wanted+=("${list[@]}")
     unset -n list
