@@ -11,7 +11,7 @@ packages_build=(
   libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
 )
 # What the tests and benchmarks need besides. ccache and mold are used where they are found.
-packages_test=(libgtest-dev libgmock-dev libbenchmark-dev python3 sqlite3 ccache mold)
+packages_test=(libgtest-dev libgmock-dev libbenchmark-dev libbz2-dev python3 sqlite3 ccache mold)
 # Sanitizers and fuzz targets.
 packages_sanitizers=(clang libclang-rt-14-dev)
 # Formatting, and the scripts' own checks.
