@@ -12,7 +12,8 @@
 namespace thermovox {
 namespace {
 
-constexpr double kMinDepth = 1e-6;       // metres
+constexpr double kMinDepth = 1e-6;  // metres
+constexpr double kMaxDepth = std::numeric_limits<double>::max();
 using Polynomial = std::vector<double>;  // coefficients, lowest power first
 
 Polynomial multiply(const Polynomial& a, const Polynomial& b) {
@@ -36,21 +37,29 @@ Polynomial sum(Polynomial a, const Polynomial& b, double factor) {
   return a;
 }
 
-/// Smallest positive real root, infinity where there is none.
+/// Smallest positive real root of a polynomial whose constant is 1, infinity where there is none. Solved for
+/// the reciprocals of the roots: their polynomial has the leading coefficient 1, however small the
+/// coefficients of the high powers are.
 double smallestPositiveRoot(Polynomial polynomial) {
-  while (polynomial.size() > 1 && polynomial.back() == 0.0) polynomial.pop_back();
+  // What cannot matter up to a radius of 100 (89.4 degrees off the axis) would only give roots of noise.
+  constexpr double kWidest = 1e4;  // radius squared
+  const auto negligible = [&] {
+    return std::abs(polynomial.back()) * std::pow(kWidest, polynomial.size() - 1) < 1e-12;
+  };
+  while (polynomial.size() > 1 && negligible()) polynomial.pop_back();
   if (polynomial.size() < 2) return std::numeric_limits<double>::infinity();
+  std::reverse(polynomial.begin(), polynomial.end());
   const Eigen::Map<const Eigen::VectorXd> coefficients(polynomial.data(),
                                                        static_cast<Eigen::Index>(polynomial.size()));
   const Eigen::PolynomialSolver<double, Eigen::Dynamic> solver(coefficients);
-  double smallest = std::numeric_limits<double>::infinity();
+  double largest = 0.0;
   for (const std::complex<double>& root : solver.roots()) {
     // A double root comes out of the eigenvalues as a pair with a small imaginary part; taking it for real
     // only narrows the field of view by nothing visible.
-    const bool real = std::abs(root.imag()) <= 1e-6 * std::max(1.0, std::abs(root.real()));
-    if (real && root.real() > 0.0) smallest = std::min(smallest, root.real());
+    const bool real = std::abs(root.imag()) <= 1e-6 * std::abs(root.real());
+    if (real) largest = std::max(largest, root.real());
   }
-  return smallest;
+  return 1.0 / largest;
 }
 
 /// In s = r^2 the radial map is r N(s) / D(s); it grows where N D + 2 s (N' D - N D') > 0.
@@ -132,6 +141,27 @@ std::span<const double, 8> distortionOf(const Intrinsics& intrinsics) {
   return std::span<const double, 8>(intrinsics.parameters.data() + kDistortion, 8);
 }
 
+/// Radius that the radial part of the distortion maps to `distorted`, to a few thousandths; by bisection,
+/// which the flat end of a strong barrel cannot lead astray.
+double undistortedRadius(const Intrinsics& intrinsics, double distorted, double valid_radius) {
+  const auto radialMap = [&](double r) {  // the odd part: the tangential coefficients make the even one
+    const double* d = intrinsics.parameters.data() + kDistortion;
+    return 0.5 * (distort(intrinsics.model, d, Vec2<double>(r, 0.0)).x() -
+                  distort(intrinsics.model, d, Vec2<double>(-r, 0.0)).x());
+  };
+  double low = 0.0;
+  double high = std::min(1.0, valid_radius);
+  while (high < valid_radius && high < 1e6 && radialMap(high) < distorted) {
+    low = high;
+    high = std::min(2.0 * high, valid_radius);
+  }
+  for (int i = 0; i < 10; ++i) {
+    const double middle = 0.5 * (low + high);
+    (radialMap(middle) < distorted ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 double monotonicRadius(LensModel model, std::span<const double, 8> d) {
@@ -166,7 +196,7 @@ Camera::Camera(const Intrinsics& intrinsics) : intrinsics_(intrinsics) {
 
 std::optional<Eigen::Vector2d> Camera::projectUnbounded(const Eigen::Vector3d& p_camera) const {
   const double z = p_camera.z();
-  if (!(z > kMinDepth)) return std::nullopt;  // written so that NaN is rejected too
+  if (!(z > kMinDepth && z <= kMaxDepth)) return std::nullopt;  // written so that NaN is rejected too
   if (!(p_camera.head<2>().squaredNorm() < valid_radius_squared_ * z * z)) return std::nullopt;
   return pixelFromCamera(intrinsics_.model, intrinsics_.parameters.data(), p_camera);
 }
@@ -184,21 +214,28 @@ std::optional<Eigen::Vector3d> Camera::rayFromPixel(const Eigen::Vector2d& pixel
   const auto& p = intrinsics_.parameters;
   const Eigen::Vector2d target((pixel.x() - p[kCx]) / p[kFx], (pixel.y() - p[kCy]) / p[kFy]);
   if (!target.allFinite()) return std::nullopt;
-  Eigen::Vector2d n = target;
-  if (n.norm() >= valid_radius_) n *= 0.9 * valid_radius_ / n.norm();
+  const auto residual = [&](const Eigen::Vector2d& n) -> Eigen::Vector2d {
+    return distort(intrinsics_.model, p.data() + kDistortion, n) - target;
+  };
+  Eigen::Vector2d n =
+      target.stableNormalized() * undistortedRadius(intrinsics_, target.norm(), valid_radius_);
+  Eigen::Vector2d error = residual(n);
   constexpr int kMaxIterations = 50;
   for (int i = 0; i < kMaxIterations; ++i) {
-    const Eigen::Vector2d residual = distort(intrinsics_.model, p.data() + kDistortion, n) - target;
     Eigen::Vector2d step =
-        distortionJacobian(intrinsics_.model, distortionOf(intrinsics_), n).inverse() * residual;
-    // Stay on the monotonic branch: a step over its border would find the folded image of another ray.
-    while ((n - step).norm() >= valid_radius_ && step.norm() > 1e-15) step *= 0.5;
+        distortionJacobian(intrinsics_.model, distortionOf(intrinsics_), n).inverse() * error;
+    // Stay on the monotonic branch (over its border would be the folded image of another ray), and get
+    // nearer: where the lens compresses strongly a full step jumps over the root.
+    const auto worse = [&] {
+      return (n - step).norm() >= valid_radius_ || !(residual(n - step).norm() <= error.norm());
+    };
+    while (step.norm() > 1e-15 && worse()) step *= 0.5;
     n -= step;
     if (!n.allFinite()) return std::nullopt;
+    error = residual(n);
     if (step.norm() < 1e-14 * (1.0 + n.norm())) break;
   }
-  const double error = (distort(intrinsics_.model, p.data() + kDistortion, n) - target).norm();
-  if (!(error < 1e-10)) return std::nullopt;
+  if (!(error.norm() < 1e-10)) return std::nullopt;
   return Eigen::Vector3d(n.x(), n.y(), 1.0);
 }
 

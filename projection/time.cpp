@@ -1,54 +1,67 @@
 #include "projection/time.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <system_error>
 
 namespace thermovox {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-constexpr double kLargestSeconds = 9.2e9;  // 64-bit nanoseconds end at 9.22e9 s
+/// 64-bit nanoseconds end at 9.22e18; the rest is room for offsets.
+constexpr std::int64_t kLargestNanoseconds = 9'200'000'000'000'000'000;
 
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
+bool isDigits(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// "123.456" without sign or exponent; nullopt for anything else.
-std::optional<std::int64_t> parsePlainDecimal(std::string_view text) {
-  std::int64_t whole = 0;
-  std::size_t i = 0;
-  for (; i < text.size() && isDigit(text[i]); ++i) {
-    whole = whole * 10 + (text[i] - '0');
-    if (whole > static_cast<std::int64_t>(kLargestSeconds)) return std::nullopt;
-  }
-  const std::size_t whole_digits = i;
-  std::size_t fraction_digits = 0;
-  std::int64_t fraction = 0;
-  std::int64_t unit = kNanosecondsPerSecond;
-  if (i < text.size() && text[i] == '.') {
-    for (++i; i < text.size() && isDigit(text[i]); ++i, ++fraction_digits) {
-      if (unit > 1) {
-        unit /= 10;
-        fraction += unit * (text[i] - '0');
-      } else if (fraction_digits == 9 && text[i] >= '5') {
-        ++fraction;  // the tenth decimal rounds, the rest cannot matter
-      }
-    }
-  }
-  if (i != text.size() || whole_digits + fraction_digits == 0) return std::nullopt;
-  return whole * kNanosecondsPerSecond + fraction;
+/// "+09" and the like; a power that nobody can mean is cut to one that is as far out of range.
+std::optional<int> parseExponent(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  if (text.empty() || !isDigits(text)) return std::nullopt;
+  constexpr int kFurthest = 100'000;
+  int value = 0;
+  const std::errc error = std::from_chars(text.data(), text.data() + text.size(), value).ec;
+  if (error != std::errc{} || value > kFurthest) value = kFurthest;
+  return negative ? -value : value;
 }
 
-std::optional<std::int64_t> parseThroughDouble(std::string_view text) {
-  double seconds = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(seconds))
+/// The number whose digits are `whole` and `fraction`, times 10^(exponent + 9), rounded half up.
+std::optional<std::int64_t> scaledToNanoseconds(std::string_view whole, std::string_view fraction,
+                                                int exponent) {
+  const auto count = static_cast<std::ptrdiff_t>(whole.size() + fraction.size());
+  const auto digit = [&](std::ptrdiff_t i) {
+    const auto n = static_cast<std::size_t>(i);
+    return (n < whole.size() ? whole[n] : fraction[n - whole.size()]) - '0';
+  };
+  const std::ptrdiff_t end =
+      static_cast<std::ptrdiff_t>(whole.size()) + exponent + 9;  // of the whole nanoseconds
+  std::int64_t nanoseconds = 0;
+  for (std::ptrdiff_t i = 0; i < end && (i < count || nanoseconds != 0); ++i) {
+    const int next = i < count ? digit(i) : 0;
+    if (nanoseconds > (kLargestNanoseconds - next) / 10) return std::nullopt;
+    nanoseconds = nanoseconds * 10 + next;
+  }
+  const bool up = end >= 0 && end < count && digit(end) >= 5;
+  return nanoseconds + (up ? 1 : 0);
+}
+
+/// A number without sign.
+std::optional<std::int64_t> parseMagnitude(std::string_view text) {
+  const std::size_t e = text.find_first_of("eE");
+  const std::optional<int> exponent = e == std::string_view::npos ? 0 : parseExponent(text.substr(e + 1));
+  const std::string_view mantissa = text.substr(0, e);
+  const std::size_t point = mantissa.find('.');
+  const std::string_view whole = mantissa.substr(0, point);
+  const std::string_view fraction =
+      point == std::string_view::npos ? std::string_view() : mantissa.substr(point + 1);
+  if (!exponent || whole.size() + fraction.size() == 0 || !isDigits(whole) || !isDigits(fraction))
     return std::nullopt;
-  if (std::abs(seconds) > kLargestSeconds) return std::nullopt;
-  return std::llround(seconds * 1e9);
+  return scaledToNanoseconds(whole, fraction, *exponent);
 }
 
 }  // namespace
@@ -58,13 +71,8 @@ Duration durationFromSeconds(double seconds) {
 }
 
 std::optional<Time> parseTime(std::string_view text) {
-  const bool negative = !text.empty() && text.front() == '-';
-  const std::string_view magnitude = negative ? text.substr(1) : text;
-  if (magnitude.empty() || !(isDigit(magnitude.front()) || magnitude.front() == '.')) return std::nullopt;
-  std::optional<std::int64_t> nanoseconds = parsePlainDecimal(magnitude);
-  if (!nanoseconds && magnitude.find_first_of("eE") != std::string_view::npos) {
-    nanoseconds = parseThroughDouble(magnitude);
-  }
+  const bool negative = text.starts_with('-');
+  const std::optional<std::int64_t> nanoseconds = parseMagnitude(negative ? text.substr(1) : text);
   if (!nanoseconds) return std::nullopt;
   return Time(Duration(negative ? -*nanoseconds : *nanoseconds));
 }

@@ -28,16 +28,18 @@ Trajectory::Trajectory(std::vector<StampedPose> poses, Duration max_gap)
 
 std::variant<Pose, NoPose> Trajectory::at(Time stamp) const {
   const auto next = std::lower_bound(poses_.begin(), poses_.end(), stamp, kByStamp);
-  if (next != poses_.end() && next->stamp - stamp <= kSameStamp) return next->T_world_body;
-  if (next != poses_.begin() && stamp - std::prev(next)->stamp <= kSameStamp)
+  // Sums, not differences: those of stamps from both ends of the time scale leave the 64 bits.
+  if (next != poses_.end() && next->stamp - kSameStamp <= stamp) return next->T_world_body;
+  if (next != poses_.begin() && stamp <= std::prev(next)->stamp + kSameStamp) {
     return std::prev(next)->T_world_body;
+  }
   if (next == poses_.begin()) return NoPose::before_start;
   if (next == poses_.end()) return NoPose::after_end;
 
   const StampedPose& previous = *std::prev(next);
   if (previous.T_world_body == next->T_world_body) return previous.T_world_body;
+  if (next->stamp - max_gap_ > previous.stamp) return NoPose::gap;
   const Duration interval = next->stamp - previous.stamp;
-  if (interval > max_gap_) return NoPose::gap;
   const double fraction =
       static_cast<double>((stamp - previous.stamp).count()) / static_cast<double>(interval.count());
   return interpolate(previous.T_world_body, next->T_world_body, fraction);
