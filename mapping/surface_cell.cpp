@@ -102,6 +102,19 @@ void SurfaceCell::merge(const SurfaceCell& other) {
   weighted_square_sum += other.weighted_square_sum.value();
 }
 
+bool SurfaceCell::isPlausible() const {
+  for (const std::uint32_t sum : offset_sum) {
+    if (sum > 255ULL * returns) return false;
+  }
+  if (returns > kMaxReturns) return false;
+  if (observations == 0) return weight_sum == 0 && weighted_sum == Sum96{} && weighted_square_sum == Sum96{};
+  // Written so that NaN is refused too.
+  const bool in_range =
+      min_celsius >= kMinCelsius - 0.01 && max_celsius <= kMaxCelsius && min_celsius <= max_celsius;
+  if (!in_range || first_ns > last_ns || weight_sum < observations) return false;
+  return mean() >= min_celsius - 0.01 && mean() <= max_celsius + 0.01;
+}
+
 Eigen::Vector3d SurfaceCell::meanOffset() const {
   const Eigen::Vector3d sum(offset_sum[0], offset_sum[1], offset_sum[2]);
   return (sum.array() / returns + 0.5) / kOffsetSteps;

@@ -70,6 +70,10 @@ struct SurfaceCell {
   /// up to kMaxReturns).
   void merge(const SurfaceCell& other);
 
+  /// Whether the fields fit together, as they do in every cell that was built by the functions above: for
+  /// cells that come from a file.
+  [[nodiscard]] bool isPlausible() const;
+
   /// Mean place of the returns within the cell, in edges. Precondition: returns > 0.
   [[nodiscard]] Eigen::Vector3d meanOffset() const;
   /// Weighted mean, C. Precondition for this and all below: observations > 0.

@@ -1,0 +1,41 @@
+#include "io/octomap_file.hpp"
+
+#include <sstream>
+
+#include "mapping/octomap_adapter.hpp"
+#include "mapping/surface_cloud.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+/// Puts what a tree wrote into a stream into a file; OctoMap's own writers check no write.
+void writeStream(const std::filesystem::path& path, const std::ostringstream& stream, Existing existing) {
+  AtomicFile file(path, existing);
+  file.write(stream.view());
+  file.commit();
+}
+
+}  // namespace
+
+void writeBt(const std::filesystem::path& path, const ThermalMap& map, Existing existing) {
+  checkOutput(path, existing);
+  std::ostringstream stream;
+  if (!toOcTree(map)->writeBinary(stream)) throw DataError(path.string() + ": OctoMap cannot write this map");
+  writeStream(path, stream, existing);
+}
+
+void writeOt(const std::filesystem::path& path, const ThermalMap& map, const ColourScale& scale,
+             Existing existing) {
+  checkOutput(path, existing);
+  const TemperatureSpan span = spanOf(surfaceCloud(map), scale);
+  const auto tree = toColorOcTree(map, [&](const SurfaceCell& cell) {
+    const Rgb rgb = cell.observations > 0 ? colourOf(cell.mean(), span, scale.palette) : kUnknownColour;
+    return octomap::ColorOcTreeNode::Color(rgb.r, rgb.g, rgb.b);
+  });
+  std::ostringstream stream;
+  if (!tree->write(stream)) throw DataError(path.string() + ": OctoMap cannot write this map");
+  writeStream(path, stream, existing);
+}
+
+}  // namespace thermovox

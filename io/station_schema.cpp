@@ -1,0 +1,85 @@
+#include "io/station_schema.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "io/number_text.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+constexpr std::int64_t kApplicationId = 0x54565831;  // "TVX1": file(1) and SQLite show it
+
+// What `sqlite3 plant.tvx .schema` shows. Times are Unix nanoseconds, NULL where there are none.
+constexpr const char* kTables = R"sql(
+CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL);
+CREATE TABLE missions (
+  id INTEGER PRIMARY KEY, name TEXT NOT NULL, rig TEXT NOT NULL, parameters TEXT NOT NULL,
+  readings INTEGER NOT NULL, points INTEGER NOT NULL, coloured INTEGER NOT NULL,
+  first_ns INTEGER, last_ns INTEGER, version TEXT NOT NULL, mapped_at INTEGER NOT NULL);
+CREATE TABLE tiles (
+  x INTEGER NOT NULL, y INTEGER NOT NULL, z INTEGER NOT NULL,
+  blocks INTEGER NOT NULL, surfaces INTEGER NOT NULL, data BLOB NOT NULL, PRIMARY KEY (x, y, z));
+)sql";
+
+/// The options by their keys in `meta`; one list for writing and reading.
+auto optionFields(auto& options) {
+  using Field = std::pair<const char*, decltype(&options.resolution)>;
+  return std::array<Field, 6>{{{"resolution", &options.resolution},
+                               {"prob_hit", &options.occupancy.prob_hit},
+                               {"prob_miss", &options.occupancy.prob_miss},
+                               {"clamp_min", &options.occupancy.clamp_min},
+                               {"clamp_max", &options.occupancy.clamp_max},
+                               {"occupied", &options.occupancy.occupied}}};
+}
+
+void writeMeta(SqlDatabase& database, std::string_view key, std::string_view value) {
+  database.prepare("INSERT INTO meta VALUES (?, ?)").bindText(1, key).bindText(2, value).run();
+}
+
+}  // namespace
+
+void createStationTables(SqlDatabase& database, const ThermalMap::Options& options) {
+  SqlTransaction transaction(database);
+  database.execute(kTables);
+  database.execute("PRAGMA application_id = " + std::to_string(kApplicationId));
+  database.execute("PRAGMA user_version = " + std::to_string(kStationSchema));
+  writeMeta(database, "schema_version", std::to_string(kStationSchema));
+  writeMeta(database, "frame", "world: metres, right-handed, z up");
+  for (const auto& [key, value] : optionFields(options)) writeMeta(database, key, exactText(*value));
+  transaction.commit();
+}
+
+void checkStationTables(const SqlDatabase& database, const std::filesystem::path& path) {
+  if (database.integer("PRAGMA application_id") != kApplicationId) {
+    throw DataError(path.string() + ": is a SQLite database but not a station");
+  }
+  const std::int64_t version = database.integer("PRAGMA user_version");
+  if (version > kStationSchema) {
+    throw DataError(path.string() + ": was written by a newer thermovox (station version " +
+                    std::to_string(version) + "), expected version " + std::to_string(kStationSchema) +
+                    " or older: update the program");
+  }
+  if (version < 1) throw DataError(path.string() + ": is a station of an unknown version");
+}
+
+ThermalMap::Options readStationOptions(const SqlDatabase& database, const std::filesystem::path& path) {
+  ThermalMap::Options options;
+  for (const auto& [key, value] : optionFields(options)) {
+    SqlStatement query = database.prepare("SELECT value FROM meta WHERE key = ?");
+    query.bindText(1, key);
+    const std::optional<double> number = query.step() ? parseNumber(query.text(0)) : std::nullopt;
+    if (!number) throw DataError(path.string() + ": is damaged, its table meta has no number for " + key);
+    *value = *number;
+  }
+  try {
+    const ThermalMap valid(options);
+  } catch (const ConfigError& error) {
+    throw DataError(path.string() + ": is damaged, " + error.what());
+  }
+  return options;
+}
+
+}  // namespace thermovox
