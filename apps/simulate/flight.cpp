@@ -50,11 +50,12 @@ Pose Flight::at(double seconds) const {
   const Eigen::Vector3d position(half_length_ * roundedTriangle(half_laps), -0.5 * std::sin(kPi * half_laps),
                                  1.75 + wave(0.2, 0.31, seconds, phases_[0]));
   double yaw = headingOf(half_laps) + wave(4.0 * kDegree, 0.83, seconds, phases_[1]);
-  double pitch = wave(2.5 * kDegree, 0.71, seconds, phases_[2]);
+  double pitch = wave(2.0 * kDegree, 0.71, seconds, phases_[2]);
   if (style_ == FlightStyle::facing_rows) {
     pitch += wave(23.0 * kDegree, 0.53, seconds, phases_[3]);
   } else {
     yaw += wave(75.0 * kDegree, 0.36, seconds, phases_[3]);
+    pitch += wave(12.0 * kDegree, 0.23, seconds, phases_[5]);
   }
   const double roll = wave(3.0 * kDegree, 0.47, seconds, phases_[4]);
   const Eigen::Quaterniond rotation = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *

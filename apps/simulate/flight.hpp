@@ -38,7 +38,7 @@ class Flight {
   FlightStyle style_;
   double half_length_ = 0.0;  ///< the path spans +-this in x, metres
   double lap_ = 6.0;          ///< seconds
-  std::array<double, 5> phases_{};
+  std::array<double, 6> phases_{};
 };
 
 }  // namespace thermovox::simulate
