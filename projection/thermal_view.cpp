@@ -11,28 +11,31 @@ namespace {
 /// Windows beyond the blur, as factors of its variance: errors from a fraction of a pixel to several.
 constexpr std::array<double, 3> kWindowFactors{1.0, 4.0, 16.0};
 
-std::vector<float> gaussianKernel(double sigma) {
+/// Double, because the variance is the small difference of two large numbers: in floats a flat wall in the
+/// image of a furnace would vary by more than the camera's noise.
+using Plane = std::vector<double>;
+
+std::vector<double> gaussianKernel(double sigma) {
   const int radius = std::max(1, static_cast<int>(std::ceil(3.0 * sigma)));
-  std::vector<float> kernel;
+  std::vector<double> kernel;
   double sum = 0.0;
   for (int i = -radius; i <= radius; ++i) sum += std::exp(-0.5 * i * i / (sigma * sigma));
   for (int i = -radius; i <= radius; ++i) {
-    kernel.push_back(static_cast<float>(std::exp(-0.5 * i * i / (sigma * sigma)) / sum));
+    kernel.push_back(std::exp(-0.5 * i * i / (sigma * sigma)) / sum);
   }
   return kernel;
 }
 
 /// Convolution along one axis of a width x height plane; the border repeats.
-std::vector<float> convolveRows(const std::vector<float>& plane, int width, int height,
-                                const std::vector<float>& kernel) {
+Plane convolveRows(const Plane& plane, int width, int height, const std::vector<double>& kernel) {
   const int radius = static_cast<int>(kernel.size()) / 2;
-  std::vector<float> result(plane.size());
-  std::vector<float> padded(static_cast<std::size_t>(width + 2 * radius));
+  Plane result(plane.size());
+  Plane padded(static_cast<std::size_t>(width + 2 * radius));
   for (int v = 0; v < height; ++v) {
-    const float* row = plane.data() + static_cast<std::ptrdiff_t>(v) * width;
+    const double* row = plane.data() + static_cast<std::ptrdiff_t>(v) * width;
     for (int i = 0; i < width + 2 * radius; ++i)
       padded[static_cast<std::size_t>(i)] = row[std::clamp(i - radius, 0, width - 1)];
-    float* out = result.data() + static_cast<std::ptrdiff_t>(v) * width;
+    double* out = result.data() + static_cast<std::ptrdiff_t>(v) * width;
     for (std::size_t k = 0; k < kernel.size(); ++k) {
       for (int u = 0; u < width; ++u) out[u] += kernel[k] * padded[static_cast<std::size_t>(u) + k];
     }
@@ -40,15 +43,15 @@ std::vector<float> convolveRows(const std::vector<float>& plane, int width, int 
   return result;
 }
 
-std::vector<float> convolveColumns(const std::vector<float>& plane, int width, int height,
-                                   const std::vector<float>& kernel) {
+Plane convolveColumns(const Plane& plane, int width, int height, const std::vector<double>& kernel) {
   const int radius = static_cast<int>(kernel.size()) / 2;
-  std::vector<float> result(plane.size());
+  Plane result(plane.size());
   for (int v = 0; v < height; ++v) {
-    float* out = result.data() + static_cast<std::ptrdiff_t>(v) * width;
+    double* out = result.data() + static_cast<std::ptrdiff_t>(v) * width;
     for (int k = -radius; k <= radius; ++k) {
-      const float* row = plane.data() + static_cast<std::ptrdiff_t>(std::clamp(v + k, 0, height - 1)) * width;
-      const float weight = kernel[static_cast<std::size_t>(k + radius)];
+      const double* row =
+          plane.data() + static_cast<std::ptrdiff_t>(std::clamp(v + k, 0, height - 1)) * width;
+      const double weight = kernel[static_cast<std::size_t>(k + radius)];
       for (int u = 0; u < width; ++u) out[u] += weight * row[u];
     }
   }
@@ -56,25 +59,15 @@ std::vector<float> convolveColumns(const std::vector<float>& plane, int width, i
 }
 
 struct Moments {
-  std::vector<float> weight, first, second;  ///< known pixels as 0 or 1, their values, their squares
+  Plane weight, first, second;  ///< known pixels as 0 or 1, their values, their squares
 };
 
-/// Values relative to the image's mean, so that squares keep their precision in a float.
 Moments momentsOf(const ThermalImage& image) {
-  double sum = 0.0;
-  std::size_t known = 0;
-  for (const float t : image.celsius) {
-    if (std::isfinite(t)) {
-      sum += t;
-      ++known;
-    }
-  }
-  const float mean = known > 0 ? static_cast<float>(sum / static_cast<double>(known)) : 0.0F;
   Moments moments;
-  for (const float t : image.celsius) {
-    const bool finite = std::isfinite(t);
-    const float value = finite ? t - mean : 0.0F;
-    moments.weight.push_back(finite ? 1.0F : 0.0F);
+  for (const float celsius : image.celsius) {
+    const bool known = std::isfinite(celsius);
+    const double value = known ? celsius : 0.0;
+    moments.weight.push_back(known ? 1.0 : 0.0);
     moments.first.push_back(value);
     moments.second.push_back(value * value);
   }
@@ -83,23 +76,23 @@ Moments momentsOf(const ThermalImage& image) {
 
 std::vector<float> windowedVariance(const ThermalImage& image, const Moments& moments, double sigma,
                                     double netd) {
-  const std::vector<float> kernel = gaussianKernel(sigma);
-  const auto blur = [&](const std::vector<float>& plane) {
+  const std::vector<double> kernel = gaussianKernel(sigma);
+  const auto blur = [&](const Plane& plane) {
     return convolveColumns(convolveRows(plane, image.width, image.height, kernel), image.width, image.height,
                            kernel);
   };
-  const std::vector<float> weight = blur(moments.weight);
-  const std::vector<float> first = blur(moments.first);
-  const std::vector<float> second = blur(moments.second);
-  float squared_weights = 0.0F;  // of the kernel in 2D: what is left of the noise's variance after averaging
-  for (const float k : kernel) squared_weights += k * k;
+  const Plane weight = blur(moments.weight);
+  const Plane first = blur(moments.first);
+  const Plane second = blur(moments.second);
+  double squared_weights = 0.0;  // of the kernel in 2D: what is left of the noise's variance after averaging
+  for (const double k : kernel) squared_weights += k * k;
   squared_weights *= squared_weights;
-  const float noise = static_cast<float>(netd * netd) * (1.0F - squared_weights);
+  const double noise = netd * netd * (1.0 - squared_weights);
   std::vector<float> variance(first.size(), 0.0F);
   for (std::size_t i = 0; i < first.size(); ++i) {
-    if (weight[i] < 1e-3F) continue;
-    const float mean = first[i] / weight[i];
-    variance[i] = std::max(0.0F, second[i] / weight[i] - mean * mean - noise);
+    if (weight[i] < 1e-3) continue;
+    const double mean = first[i] / weight[i];
+    variance[i] = static_cast<float>(std::max(0.0, second[i] / weight[i] - mean * mean - noise));
   }
   return variance;
 }
