@@ -21,6 +21,7 @@ void addSurfacesInView(const ThermalMap& map, const Pose& T_camera_world, DepthS
     if (!mayBeInFront(T_camera_world * (corner + Eigen::Vector3d::Constant(0.5 * block_edge)), radius))
       return;
     for (std::size_t i = 0; i < block.surfaces.size(); ++i) {
+      if (!map.occupancyModel().isOccupied(block.log_odds[block.surface_index[i]])) continue;
       const CellKey cell = cellAt(key, block.surface_index[i]);
       const Eigen::Vector3d place = Eigen::Vector3d(cell.x, cell.y, cell.z) + block.surfaces[i].meanOffset();
       depths.add(place * map.resolution());

@@ -70,41 +70,51 @@ void DepthSectors::add(std::span<const Eigen::Vector3d> points_world) {
   for (const Eigen::Vector3d& p_world : points_world) add(p_world);
 }
 
-std::vector<DepthSectors::Neighbour> DepthSectors::neighbourhood() const {
+std::vector<DepthSectors::Ring> DepthSectors::rings() const {
   const double focal_px = std::min(camera_->fx(), camera_->fy());
-  std::vector<Neighbour> neighbours;
   const int radius = options_.radius_bins;
+  std::vector<Ring> rings(static_cast<std::size_t>(radius));
   for (int dv = -radius; dv <= radius; ++dv) {
     for (int du = -radius; du <= radius; ++du) {
       const double distance = std::hypot(du, dv);
-      if (distance == 0.0 || distance > radius + 0.5) continue;
+      const int ring = static_cast<int>(std::round(distance));
+      if (ring < 1 || ring > radius) continue;
       const double aside = distance * options_.bin_px / focal_px;  // tangent of the angle
       const double scale = 1.0 / std::max(0.05, 1.0 - options_.slope * aside);
-      neighbours.push_back(
-          {static_cast<std::ptrdiff_t>(dv) * columns_ + du, sectorOf(du, dv), static_cast<float>(scale)});
+      rings[static_cast<std::size_t>(ring - 1)].push_back({static_cast<std::ptrdiff_t>(dv) * columns_ + du,
+                                                           static_cast<std::size_t>(sectorOf(du, dv)),
+                                                           static_cast<float>(scale)});
     }
   }
-  return neighbours;
+  return rings;
+}
+
+float DepthSectors::depthHiddenBeyond(std::ptrdiff_t bin, const std::vector<Ring>& rings) const {
+  std::array<float, kSectors> sectors;
+  sectors.fill(kNothing);
+  int more_rings = options_.more_rings;
+  for (const Ring& ring : rings) {
+    for (const Neighbour& n : ring) {
+      const float depth = nearest_[static_cast<std::size_t>(bin + n.offset)] * n.scale;
+      sectors[n.sector] = std::min(sectors[n.sector], depth);
+    }
+    const auto filled =
+        std::count_if(sectors.begin(), sectors.end(), [](float depth) { return depth < kNothing; });
+    if (filled >= options_.sectors_filled && more_rings-- == 0) break;
+  }
+  const auto nth = sectors.begin() + (options_.sectors_needed - 1);
+  std::nth_element(sectors.begin(), nth, sectors.end());
+  return *nth + static_cast<float>(options_.margin);
 }
 
 void DepthSectors::finish() {
-  const std::vector<Neighbour> neighbours = neighbourhood();
+  const std::vector<Ring> around = rings();
   hidden_beyond_.assign(nearest_.size(), kNothing);
-  const float margin = static_cast<float>(options_.margin);
   const int rim = options_.radius_bins;
   for (int row = rim; row < rows_ - rim; ++row) {
     for (int column = rim; column < columns_ - rim; ++column) {
       const std::ptrdiff_t bin = static_cast<std::ptrdiff_t>(row) * columns_ + column;
-      std::array<float, kSectors> sectors;
-      sectors.fill(kNothing);
-      for (const Neighbour& n : neighbours) {
-        const float depth = nearest_[static_cast<std::size_t>(bin + n.offset)] * n.scale;
-        float& sector = sectors[static_cast<std::size_t>(n.sector)];
-        sector = std::min(sector, depth);
-      }
-      const auto nth = sectors.begin() + (options_.sectors_needed - 1);
-      std::nth_element(sectors.begin(), nth, sectors.end());
-      hidden_beyond_[static_cast<std::size_t>(bin)] = *nth + margin;
+      hidden_beyond_[static_cast<std::size_t>(bin)] = depthHiddenBeyond(bin, around);
     }
   }
 }

@@ -23,8 +23,10 @@ class DepthSectors final : public Occluder {
   struct Options {
     double bin_px = 0.0;     ///< edge of a bin; 0 chooses about 160 bins across the image
     int radius_bins = 7;     ///< how far a pixel asks
+    int sectors_filled = 8;  ///< a pixel asks no further once so many sectors have an answer
+    int more_rings = 1;      ///< but for so many bins more
     int sectors_needed = 4;  ///< of eight, with something nearer in them, to hide a point
-    double slope = 2.0;      ///< steepest surface that must not hide itself: metres nearer per metre aside
+    double slope = 4.0;      ///< steepest surface that must not hide itself: metres nearer per metre aside
     double margin = 0.08;    ///< metres a surface must at least be nearer to hide
     void validate() const;   ///< throws ConfigError naming the field
   };
@@ -47,10 +49,12 @@ class DepthSectors final : public Occluder {
  private:
   struct Neighbour {
     std::ptrdiff_t offset;  ///< in nearest_
-    int sector;
+    std::size_t sector;
     float scale;  ///< depth it hides beyond, as a factor of its own depth
   };
-  [[nodiscard]] std::vector<Neighbour> neighbourhood() const;
+  using Ring = std::vector<Neighbour>;  ///< the neighbours at one distance
+  [[nodiscard]] std::vector<Ring> rings() const;
+  [[nodiscard]] float depthHiddenBeyond(std::ptrdiff_t bin, const std::vector<Ring>& rings) const;
   [[nodiscard]] std::ptrdiff_t binOf(const Eigen::Vector2d& pixel) const;
 
   const Camera* camera_;

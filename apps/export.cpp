@@ -1,0 +1,99 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/verbs.hpp"
+#include "io/cloud_writer.hpp"
+#include "io/map_picture.hpp"
+#include "io/octomap_file.hpp"
+#include "io/station.hpp"
+#include "mapping/surface_cloud.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, Palette> kPalettes{{"inferno", Palette::inferno},
+                                               {"ironbow", Palette::ironbow},
+                                               {"rainbow", Palette::rainbow},
+                                               {"grey", Palette::grey}};
+
+struct ExportArgs {
+  fs::path station;
+  fs::path out;
+  ColourScale scale;
+  std::vector<double> span;
+  bool force = false;
+};
+
+void writePicture(const ExportArgs& args, const Station& station, const ThermalMap& map, Existing existing) {
+  MapPictureOptions options;
+  std::string separator;
+  for (const MissionRecord& mission : station.missions()) {
+    options.title += std::exchange(separator, ", ") + mission.name;
+  }
+  options.resolution = map.resolution();
+  options.palette = args.scale.palette;
+  options.span = args.scale.span;
+  writeMapPicture(args.out, surfaceCloud(map), options, existing);
+}
+
+void checkEnding(const fs::path& out) {
+  const std::string ending = out.extension().string();
+  for (const char* known : {".ply", ".pcd", ".csv", ".bt", ".ot", ".png"}) {
+    if (ending == known) return;
+  }
+  throw ConfigError(out.string() + ": cannot export to '" + ending +
+                    "', expected .ply, .pcd, .csv, .bt, .ot or .png");
+}
+
+void runExport(ExportArgs& args) {
+  checkEnding(args.out);
+  if (args.span.size() == 2) {
+    if (!(args.span[0] < args.span[1])) throw ConfigError("--span: expected LO < HI, in C");
+    args.scale.span = TemperatureSpan{args.span[0], args.span[1]};
+  }
+  const Existing existing = args.force ? Existing::replace : Existing::refuse;
+  checkOutput(args.out, existing);
+  const Station station = Station::open(args.station);
+  const ThermalMap map = station.loadMap();
+  const std::string ending = args.out.extension().string();
+  if (ending == ".bt") {
+    writeBt(args.out, map, existing);
+  } else if (ending == ".ot") {
+    writeOt(args.out, map, args.scale, existing);
+  } else if (ending == ".png") {
+    writePicture(args, station, map, existing);
+  } else {
+    writeCloud(args.out, surfaceCloud(map), args.scale, existing);
+  }
+  std::cout << args.out.string() << ": " << map.surfaceCount() << " cells that hold a surface\n";
+}
+
+}  // namespace
+
+void addExport(CLI::App& app) {
+  auto args = std::make_shared<ExportArgs>();
+  CLI::App* verb =
+      app.add_subcommand("export", "Write a station's map for other programs, by the ending of OUT.");
+  verb->add_option("STATION", args->station, "Station (.tvx)")->required();
+  verb->add_option("OUT", args->out,
+                   "Points, one a cell that holds a surface: .ply (CloudCompare), .pcd (PCL), .csv; "
+                   "OctoMap: .bt (occupancy), .ot (with temperature as colour); picture: .png")
+      ->required();
+  verb->add_option("--span", args->span,
+                   "Temperatures at the two ends of the palette, LO HI [C] (default: 2nd to 98th percentile)")
+      ->expected(2);
+  verb->add_option("--palette", args->scale.palette, "inferno, ironbow, rainbow or grey (default inferno)")
+      ->transform(CLI::CheckedTransformer(kPalettes));
+  verb->add_flag("--force", args->force, "Replace OUT when it is there");
+  verb->callback([args] { runExport(*args); });
+}
+
+}  // namespace thermovox

@@ -1,0 +1,267 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "apps/verbs.hpp"
+#include "io/csv.hpp"
+#include "io/input_file.hpp"
+#include "io/mission_folder.hpp"
+#include "io/rig_file.hpp"
+#include "io/station.hpp"
+#include "io/thermal_image_file.hpp"
+#include "io/thermal_tiff.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+enum class Kind { image, mission, rig, captures, bag, station };
+
+struct InfoArgs {
+  fs::path thing;
+  bool verify = false;
+  bool json = false;
+};
+
+bool startsWith(const std::string& head, std::string_view magic) {
+  return head.compare(0, magic.size(), magic) == 0;
+}
+
+bool looksLikeImage(const std::string& head) {
+  using namespace std::string_view_literals;
+  constexpr std::array magics{"II*\0"sv,   "MM\0*"sv, "II+\0"sv, "MM\0+"sv, "\xFF\xD8"sv,
+                              "\x89PNG"sv, "BM"sv,    "FFF\0"sv, "GIF8"sv};
+  return std::any_of(magics.begin(), magics.end(),
+                     [&](std::string_view magic) { return startsWith(head, magic); });
+}
+
+/// What the thing is, by its content; a folder by the description in it.
+Kind kindOf(const fs::path& thing) {
+  if (fs::is_directory(thing)) {
+    if (fs::exists(thing / "mission.yaml")) return Kind::mission;
+    if (fs::exists(thing / "captures.yaml")) return Kind::captures;
+    throw DataError(thing.string() +
+                    ": is a folder without mission.yaml or captures.yaml, expected a mission or captures");
+  }
+  std::string head(64, '\0');
+  std::ifstream stream = openInput(thing);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (startsWith(head, "SQLite format 3")) return Kind::station;
+  if (startsWith(head, "#ROSBAG")) return Kind::bag;
+  if (looksLikeImage(head)) return Kind::image;
+  if (thing.filename() == "mission.yaml") return Kind::mission;
+  if (thing.filename() == "captures.yaml") return Kind::captures;
+  if (thing.extension() == ".yaml" || thing.extension() == ".yml") return Kind::rig;
+  throw DataError(
+      thing.string() +
+      ": is nothing that thermovox knows, expected an image, mission, rig, captures, bag or station");
+}
+
+/// Minimum, mean and maximum of the known pixels, C.
+void addStatistics(Json& json, const ThermalImage& image) {
+  double sum = 0.0;
+  std::size_t known = 0;
+  float low = std::numeric_limits<float>::infinity();
+  float high = -low;
+  for (const float celsius : image.celsius) {
+    if (!std::isfinite(celsius)) continue;
+    sum += celsius;
+    ++known;
+    low = std::min(low, celsius);
+    high = std::max(high, celsius);
+  }
+  json["unknown_pixels"] = image.celsius.size() - known;
+  if (known == 0) return;
+  json["min"] = low;
+  json["mean"] = sum / static_cast<double>(known);
+  json["max"] = high;
+}
+
+Json imageInfo(const fs::path& file) {
+  Json json{{"kind", "image"}};
+  try {
+    const ThermalImage image = readThermalImage(file, 0, TLinear{});
+    json["radiometric"] = true;
+    json["width"] = image.width;
+    json["height"] = image.height;
+    json["pages"] = thermalTiffPages(file);
+    addStatistics(json, image);
+  } catch (const DataError& error) {
+    json["radiometric"] = false;
+    json["reason"] = error.what();
+  }
+  return json;
+}
+
+const char* name(LaserKind kind) {
+  switch (kind) {
+    case LaserKind::beam:
+      return "beam";
+    case LaserKind::scan:
+      return "scan";
+    case LaserKind::cloud:
+      break;
+  }
+  return "cloud";
+}
+
+const char* name(LensModel model) {
+  switch (model) {
+    case LensModel::pinhole:
+      return "pinhole";
+    case LensModel::brown_conrady:
+      return "brown_conrady";
+    case LensModel::kannala_brandt:
+      break;
+  }
+  return "kannala_brandt";
+}
+
+Json cameraInfo(const Camera& camera) {
+  constexpr double degrees = 180.0 / M_PI;
+  return {{"width", camera.width()},
+          {"height", camera.height()},
+          {"model", name(camera.intrinsics().model)},
+          {"field_of_view_deg",
+           {2.0 * degrees * std::atan(0.5 * camera.width() / camera.fx()),
+            2.0 * degrees * std::atan(0.5 * camera.height() / camera.fy())}}};
+}
+
+Json rigInfo(const Rig& rig) {
+  Json json{{"kind", "rig"}};
+  json["lasers"] = Json::array();
+  for (const Laser& laser : rig.lasers) {
+    json["lasers"].push_back({{"kind", name(laser.kind)},
+                              {"range", {laser.range_min, laser.range_max}},
+                              {"range_sigma", laser.range_sigma},
+                              {"calibrated", !laser.covariance_body_laser.isZero(0.0)}});
+  }
+  if (rig.thermal_camera) json["thermal_camera"] = cameraInfo(rig.thermal_camera->camera);
+  if (rig.visible_camera) json["visible_camera"] = cameraInfo(rig.visible_camera->camera);
+  return json;
+}
+
+std::size_t rowsOf(const fs::path& list) {
+  CsvReader rows(std::make_unique<std::ifstream>(openInput(list)), list.string());
+  std::size_t count = 0;
+  while (rows.next()) ++count;
+  return count;
+}
+
+Json missionInfo(const fs::path& thing) {
+  const OpenedMission opened = openMission(thing);
+  const fs::path file = opened.folder / "mission.yaml";
+  const MissionFile description = parseMissionFile(readWhole(file), file.string());
+  const auto poses = opened.mission.trajectory.poses();
+  std::size_t readings = 0;
+  for (const std::string& list : description.lasers) readings += rowsOf(opened.folder / list);
+  const std::size_t frames =
+      opened.frames && description.thermal ? rowsOf(opened.folder / *description.thermal) : 0;
+  Json json{{"kind", "mission"},
+            {"name", opened.mission.name},
+            {"readings", readings},
+            {"thermal_frames", frames},
+            {"poses", poses.size()},
+            {"first_pose", toUnixSeconds(poses.front().stamp)},
+            {"last_pose", toUnixSeconds(poses.back().stamp)}};
+  Json rig = rigInfo(opened.mission.rig);
+  rig.erase("kind");
+  json["rig"] = std::move(rig);
+  return json;
+}
+
+Json capturesInfo(const fs::path& thing) {
+  const fs::path folder = fs::is_directory(thing) ? thing : thing.parent_path();
+  Json json{{"kind", "captures"}};
+  if (fs::exists(folder / "captures.csv")) json["captures"] = rowsOf(folder / "captures.csv");
+  return json;
+}
+
+Json stationInfo(const fs::path& file, bool verify) {
+  const Station station = Station::open(file);
+  const Station::Counts counts = station.counts();
+  Json json{{"kind", "station"}, {"resolution", station.options().resolution}, {"voxels", counts.surfaces}};
+  json["missions"] = Json::array();
+  for (const MissionRecord& mission : station.missions()) {
+    Json entry{{"mission", mission.name},
+               {"readings", mission.readings},
+               {"points", mission.points},
+               {"coloured", mission.coloured}};
+    if (mission.first) entry["first"] = toUnixSeconds(*mission.first);
+    if (mission.last) entry["last"] = toUnixSeconds(*mission.last);
+    json["missions"].push_back(std::move(entry));
+  }
+  if (verify) {
+    const std::vector<std::string> faults = station.verify();
+    json["ok"] = faults.empty();
+    json["tiles"] = counts.tiles;
+    if (!faults.empty()) json["faults"] = faults;
+  }
+  return json;
+}
+
+Json describe(const InfoArgs& args) {
+  switch (kindOf(args.thing)) {
+    case Kind::image:
+      return imageInfo(args.thing);
+    case Kind::mission:
+      return missionInfo(args.thing);
+    case Kind::rig:
+      return rigInfo(readRig(args.thing));
+    case Kind::captures:
+      return capturesInfo(args.thing);
+    case Kind::bag:
+      return {{"kind", "bag"}, {"bytes", fs::file_size(args.thing)}};
+    case Kind::station:
+      break;
+  }
+  return stationInfo(args.thing, args.verify);
+}
+
+/// The same content as lines "key: value", nested keys with a dot.
+void printLines(const Json& json, const std::string& prefix) {
+  for (const auto& [key, value] : json.items()) {
+    const std::string path = prefix.empty() ? key : prefix + "." + key;
+    const bool of_objects =
+        value.is_object() || (value.is_array() && !value.empty() && value.front().is_object());
+    if (of_objects) {
+      printLines(value, path);
+    } else {
+      std::cout << path << ": " << (value.is_string() ? value.get<std::string>() : value.dump()) << '\n';
+    }
+  }
+}
+
+void runInfo(const InfoArgs& args) {
+  const Json json = describe(args);
+  if (args.json) {
+    std::cout << json.dump(2) << '\n';
+  } else {
+    printLines(json, "");
+  }
+  if (json.contains("ok") && !json["ok"].get<bool>())
+    throw DataError(args.thing.string() + ": the station is damaged");
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app) {
+  auto args = std::make_shared<InfoArgs>();
+  CLI::App* verb = app.add_subcommand(
+      "info", "Say what a file or folder is: image, mission, rig, captures, bag or station.");
+  verb->add_option("THING", args->thing, "File or folder")->required();
+  verb->add_flag("--verify", args->verify, "Of a station: check every tile");
+  verb->add_flag("--json", args->json, "Print JSON");
+  verb->callback([args] { runInfo(*args); });
+}
+
+}  // namespace thermovox

@@ -1,0 +1,107 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "apps/simulate/mission_writer.hpp"
+#include "apps/verbs.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SimulateArgs {
+  simulate::SimulationOptions options;
+  fs::path out;
+  bool force = false;
+};
+
+const std::map<std::string, LaserKind> kLaserKinds{
+    {"beam", LaserKind::beam}, {"scan", LaserKind::scan}, {"cloud", LaserKind::cloud}};
+const std::map<std::string, LensModel> kLensModels{{"pinhole", LensModel::pinhole},
+                                                   {"brown_conrady", LensModel::brown_conrady},
+                                                   {"kannala_brandt", LensModel::kannala_brandt}};
+
+/// Puts an old result out of the way while a new one is made: back if that fails, gone if it succeeds.
+class SetAside {
+ public:
+  explicit SetAside(const fs::path& path) : path_(path), aside_(path.string() + ".old") {
+    if (!fs::exists(path_)) return;
+    fs::remove_all(aside_);
+    fs::rename(path_, aside_);
+    moved_ = true;
+  }
+  ~SetAside() {
+    std::error_code ignored;
+    if (moved_ && !fs::exists(path_, ignored)) fs::rename(aside_, path_, ignored);
+  }
+  SetAside(const SetAside&) = delete;
+  SetAside& operator=(const SetAside&) = delete;
+
+  void discard() const {
+    if (moved_) fs::remove_all(aside_);
+  }
+
+ private:
+  fs::path path_;
+  fs::path aside_;
+  bool moved_ = false;
+};
+
+void replaceMission(const simulate::SimulationOptions& options, const fs::path& out) {
+  if (fs::exists(out) && !fs::exists(out / "mission.yaml")) {
+    throw DataError(
+        out.string() +
+        ": exists and is no mission (no mission.yaml in it), expected a name that --force may replace");
+  }
+  const SetAside mission(out);
+  const SetAside truth(simulate::truthPath(out));
+  simulate::simulateMission(options, out);
+  mission.discard();
+  truth.discard();
+}
+
+void runSimulate(const SimulateArgs& args) {
+  if (args.force) {
+    replaceMission(args.options, args.out);
+  } else {
+    simulate::simulateMission(args.options, args.out);
+  }
+  std::cout << "mission " << args.out.string() << "\ntruth   " << simulate::truthPath(args.out).string()
+            << '\n';
+}
+
+}  // namespace
+
+void addSimulate(CLI::App& app) {
+  auto args = std::make_shared<SimulateArgs>();
+  simulate::SimulationOptions& options = args->options;
+  CLI::App* verb = app.add_subcommand(
+      "simulate",
+      "Fly a synthetic converter hall and write the mission, with its truth beside it (OUT.truth.json).");
+  verb->add_option("OUT", args->out, "Folder to write")->required();
+  verb->add_option("--laser", options.laser, "Kind of laser: beam (1D), scan (2D) or cloud (3D)")
+      ->required()
+      ->transform(CLI::CheckedTransformer(kLaserKinds));
+  verb->add_option("--seed", options.seed, "Of hall, flight and noise: same seed, same bytes")
+      ->capture_default_str();
+  verb->add_option("--hall-seed", options.hall_seed,
+                   "Of the hall alone, to fly the same hall again (default: --seed)");
+  verb->add_option("--duration", options.duration, "Seconds of measuring")->capture_default_str();
+  verb->add_option("--lens", options.lens,
+                   "Lens model of the thermal camera: brown_conrady, kannala_brandt or pinhole (default "
+                   "brown_conrady)")
+      ->transform(CLI::CheckedTransformer(kLensModels));
+  verb->add_option("--netd", options.netd, "Noise of a thermal pixel, one sigma [C]")->capture_default_str();
+  verb->add_option("--blur", options.blur_px, "Optics and pixel together, one sigma [px]")
+      ->capture_default_str();
+  verb->add_option("--frame-rate", options.frame_rate, "Thermal frames a second")->capture_default_str();
+  verb->add_option("--range-sigma", options.range_sigma, "Range noise, one sigma [m]")->capture_default_str();
+  verb->add_flag("--force", args->force, "Replace a mission that is there");
+  verb->callback([args] { runSimulate(*args); });
+}
+
+}  // namespace thermovox
