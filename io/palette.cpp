@@ -86,4 +86,9 @@ Rgb colourOf(double celsius, const TemperatureSpan& span, Palette palette) {
   return colourAt(palette, (celsius - span.low) / (span.high - span.low));
 }
 
+double TemperatureScale::placeOf(double celsius) const {
+  if (std::isnan(celsius)) return celsius;
+  return std::pow(std::clamp((celsius - span.low) / (span.high - span.low), 0.0, 1.0), exponent);
+}
+
 }  // namespace thermovox

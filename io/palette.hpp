@@ -48,4 +48,16 @@ struct TemperatureSpan {
 /// Colour of a temperature; NaN is kUnknownColour. Precondition: span.low < span.high.
 [[nodiscard]] Rgb colourOf(double celsius, const TemperatureSpan& span, Palette palette);
 
+/// How a picture turns temperatures into colours: the place in the palette is the place in the span to the
+/// power of `exponent` (1: linear; less gives the cool end more of the palette).
+struct TemperatureScale {
+  TemperatureSpan span;
+  Palette palette = Palette::inferno;
+  double exponent = 1.0;
+
+  /// 0 at the span's low end and below, 1 at its high end and above; NaN for NaN.
+  [[nodiscard]] double placeOf(double celsius) const;
+  [[nodiscard]] Rgb colourOf(double celsius) const { return colourAt(palette, placeOf(celsius)); }
+};
+
 }  // namespace thermovox

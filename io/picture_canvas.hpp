@@ -1,0 +1,39 @@
+#pragma once
+
+// The adapter between pictures and OpenCV: only the sources of pictures include it.
+
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "io/atomic_file.hpp"
+#include "io/palette.hpp"
+
+namespace thermovox {
+
+enum class TextAlign { left, center, right };
+
+struct TextStyle {
+  double height_px = 16.0;  ///< of a capital letter
+  Rgb colour{230, 230, 230};
+  TextAlign align = TextAlign::left;
+  bool bold = false;
+};
+
+/// Writes one line with smooth edges; (x, y) is the baseline's left end, middle or right end by the style's
+/// align. The byte 0xB0 is the sign of degrees; other bytes beyond ASCII are left out. `picture`: 8-bit BGR.
+void drawText(cv::Mat& picture, const std::string& text, cv::Point2d position, const TextStyle& style);
+/// Width of such a line, px.
+[[nodiscard]] double textWidth(const std::string& text, const TextStyle& style);
+
+/// A horizontal bar of the palette with ticks at round temperatures; `area` is the coloured bar, the
+/// numbers stand below it.
+void drawTemperatureScale(cv::Mat& picture, const cv::Rect& area, const TemperatureScale& scale);
+
+/// Temperatures at round steps within the span, about `wanted` of them.
+[[nodiscard]] std::vector<double> roundTicks(const TemperatureSpan& span, int wanted);
+
+/// Writes a picture (8-bit BGR or grey) as PNG, whole or not at all. Throws DataError naming the file.
+void writePng(const std::filesystem::path& path, const cv::Mat& picture, Existing existing);
+
+}  // namespace thermovox
