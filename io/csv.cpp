@@ -57,8 +57,8 @@ Time CsvReader::stamp(std::size_t field) const {
 double CsvReader::number(std::size_t field) const {
   const std::optional<double> number = parseNumber(fields_.at(field));
   if (!number) {
-    throw DataError(place() + ": found " + inQuotes(fields_[field]) + " as field " + std::to_string(field + 1) +
-                    ", expected a number");
+    throw DataError(place() + ": found " + inQuotes(fields_[field]) + " as field " +
+                    std::to_string(field + 1) + ", expected a number");
   }
   return *number;
 }

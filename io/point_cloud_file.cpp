@@ -182,7 +182,8 @@ CloudPoint pointFromWords(const std::vector<std::string_view>& words, const Colu
     const std::string_view word = words[columns[w]->word];
     const std::optional<double> number = parseNumber(word);
     if (!number) {
-      throw DataError(name + ":" + std::to_string(line) + ": found " + inQuotes(word) + ", expected a number");
+      throw DataError(name + ":" + std::to_string(line) + ": found " + inQuotes(word) +
+                      ", expected a number");
     }
     values[w] = *number;
   }

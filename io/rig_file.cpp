@@ -63,7 +63,8 @@ LensModel readModel(const YamlMap& map) {
   if (model == "pinhole") return LensModel::pinhole;
   if (model == "brown_conrady") return LensModel::brown_conrady;
   if (model == "kannala_brandt") return LensModel::kannala_brandt;
-  throw fault(map, "model", "found " + inQuotes(model) + ", expected pinhole, brown_conrady or kannala_brandt");
+  throw fault(map, "model",
+              "found " + inQuotes(model) + ", expected pinhole, brown_conrady or kannala_brandt");
 }
 
 void readFocalAndCentre(const YamlMap& map, Intrinsics& intrinsics) {

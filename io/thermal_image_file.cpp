@@ -20,8 +20,10 @@ struct OtherKind {
   std::string_view name;
 };
 constexpr std::array kOtherKinds{
-    OtherKind{"\xFF\xD8\xFF"sv, "a JPEG"sv},    OtherKind{"\x89PNG"sv, "a PNG picture"sv},
-    OtherKind{"FFF\0"sv, "a FLIR recording"sv}, OtherKind{"AFF\0"sv, "a FLIR recording"sv},
+    OtherKind{"\xFF\xD8\xFF"sv, "a JPEG (radiometric ones are not read yet)"sv},
+    OtherKind{"\x89PNG"sv, "a PNG picture"sv},
+    OtherKind{"FFF\0"sv, "a FLIR recording (not read yet)"sv},
+    OtherKind{"AFF\0"sv, "a FLIR recording (not read yet)"sv},
     OtherKind{"BM"sv, "a BMP picture"sv},
 };
 
