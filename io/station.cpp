@@ -19,8 +19,15 @@ namespace {
 constexpr const char* kMissionColumns =
     "name, rig, parameters, readings, points, coloured, first_ns, last_ns, version, mapped_at";
 
-TileKey tileKeyOf(const SqlStatement& row) {
-  const auto index = [&](int column) { return static_cast<std::int32_t>(row.integer(column)); };
+/// The key in the row's first three columns. A map reaches no further than kMaxCellKey.
+TileKey tileKeyOf(const SqlStatement& row, const fs::path& path) {
+  const auto index = [&](int column) {
+    constexpr std::int64_t reach = kMaxCellKey >> (kBlockBits + kTileBits);
+    const std::int64_t place = row.integer(column);
+    if (place >= -reach && place <= reach) return static_cast<std::int32_t>(place);
+    throw DataError(path.string() + ": is damaged, it has a tile at " + std::to_string(place) +
+                    ", expected one within " + std::to_string(reach) + " of the origin");
+  };
   return {index(0), index(1), index(2)};
 }
 
@@ -186,7 +193,7 @@ ThermalMap Station::loadMap() const {
   ThermalMap map(options_);
   SqlStatement query = storage_->database->prepare("SELECT x, y, z, data FROM tiles ORDER BY x, y, z");
   while (query.step()) {
-    for (auto& [key, block] : decode(tileKeyOf(query), query.blob(3), path_))
+    for (auto& [key, block] : decode(tileKeyOf(query, path_), query.blob(3), path_))
       map.setBlock(key, std::move(block));
   }
   return map;
@@ -226,7 +233,7 @@ std::vector<std::string> Station::verify() const {
         storage_->database->prepare("SELECT x, y, z, data, blocks, surfaces FROM tiles ORDER BY x, y, z");
     while (query.step()) {
       try {
-        const TileBlocks blocks = decode(tileKeyOf(query), query.blob(3), path_);
+        const TileBlocks blocks = decode(tileKeyOf(query, path_), query.blob(3), path_);
         if (query.integer(4) != static_cast<std::int64_t>(blocks.size()) ||
             query.integer(5) != surfacesIn(blocks)) {
           faults.push_back(path_.string() +

@@ -210,6 +210,13 @@ TEST(Station, SaysWhichTileIsDamaged) {
   EXPECT_THAT(Station::open(path).verify(), testing::ElementsAre(HasSubstr("tile (-1, -1, -1) is damaged")));
 }
 
+TEST(Station, RefusesTilesOutsideTheWorld) {
+  const TestFolder folder;
+  const fs::path path = stationOf(folder, {1});
+  executeSql(path, "UPDATE tiles SET x = 2147483647 WHERE x = -1");
+  EXPECT_THAT(refusal(path), HasSubstr("has a tile at 2147483647"));
+}
+
 TEST(Station, VerifiesItsCounts) {
   const TestFolder folder;
   const fs::path path = stationOf(folder, {1});
