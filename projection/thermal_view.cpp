@@ -10,6 +10,8 @@ namespace {
 
 /// Windows beyond the blur, as factors of its variance: errors from a fraction of a pixel to several.
 constexpr std::array<double, 3> kWindowFactors{1.0, 4.0, 16.0};
+/// Of a pixel's own width, px^2: no optics mix less than that.
+constexpr double kPixelVariance = 1.0 / 12.0;
 
 /// Double, because the variance is the small difference of two large numbers: in floats a flat wall in the
 /// image of a furnace would vary by more than the camera's noise.
@@ -142,8 +144,9 @@ std::optional<TemperatureSample> sampleTemperature(const ThermalImage& image, co
 LocalVariance::LocalVariance(const ThermalImage& image, double blur_px, double netd)
     : width_(image.width), height_(image.height) {
   const Moments moments = momentsOf(image);
+  const double least_px2 = std::max(blur_px * blur_px, kPixelVariance);
   for (const double factor : kWindowFactors) {
-    const double window_px2 = factor * blur_px * blur_px;
+    const double window_px2 = factor * least_px2;
     levels_.push_back({window_px2, windowedVariance(image, moments, std::sqrt(window_px2), netd)});
   }
 }

@@ -26,7 +26,8 @@ struct TemperatureSample {
 /// which for a constant gradient g is exactly |g|^2 s^2.
 class LocalVariance {
  public:
-  /// `blur_px` is the smallest window: optics and pixel mix that neighbourhood in any case.
+  /// `blur_px` is the smallest window: optics and pixel mix that neighbourhood in any case, and at least the
+  /// width of a pixel.
   LocalVariance(const ThermalImage& image, double blur_px, double netd);
 
   /// Variance (C^2) at the pixel for an error of `variance_px2` (px^2 an axis) beyond the blur.

@@ -119,6 +119,16 @@ TEST(LocalVariance, IsFiniteAroundUnknownPixels) {
   EXPECT_EQ(unknown.at({3.0, 3.0}, 1.0), 0.0F);
 }
 
+TEST(LocalVariance, OfPerfectOpticsStillKnowsThePixelsWidth) {
+  const LocalVariance variance(imageOf(kWidth, kHeight, [](int u, int) { return 2.0 * u; }), 0.0, 0.0);
+  EXPECT_GT(variance.at(kMiddle, 0.0), 0.0F);
+  // A window of a pixel's width is sampled by three pixels and reads low; from half a pixel of error it is
+  // right.
+  for (const double error : {0.3, 1.0, 2.0}) {
+    EXPECT_NEAR(variance.at(kMiddle, error) / (4.0 * (1.0 / 12.0 + error)), 1.0, 0.05) << error;
+  }
+}
+
 TEST(LocalVariance, TakesImagesOfOneRowAndOneColumn) {
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(5, 1), std::pair(1, 5)}) {
     const LocalVariance variance(imageOf(width, height, [](int, int) { return 20.0; }), kBlur, 0.0);
