@@ -2,12 +2,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/progress.hpp"
@@ -26,6 +30,8 @@ namespace fs = std::filesystem;
 
 const std::map<std::string, Carving> kCarvings{{"octomap", Carving::octomap}, {"none", Carving::none}};
 
+constexpr double kLongestGap = 1e7;  // seconds
+
 struct MapArgs {
   std::vector<fs::path> missions;
   fs::path station;
@@ -37,6 +43,7 @@ struct MapArgs {
   KnownMission known = KnownMission::refuse;
   bool force = false;
   bool json = false;
+  std::int64_t mapped_at = 0;  ///< Unix seconds
 };
 
 struct MapResult {
@@ -151,8 +158,35 @@ std::string parametersOf(const MapArgs& args) {
   return json.dump();
 }
 
+/// Before hours of work: a mission that the station has already, or that is named twice.
+void checkNew(const std::vector<OpenedMission>& missions, const Station& station) {
+  std::set<std::string> names;
+  for (const OpenedMission& opened : missions) {
+    const std::string& name = opened.mission.name;
+    station.checkNew(name);
+    if (names.insert(name).second) continue;
+    throw DataError(opened.folder.string() + ": is a second mission '" + name + "' for the station " +
+                    station.path().string() + ", expected each name once (or --again to integrate both)");
+  }
+}
+
+/// Unix seconds of now, or SOURCE_DATE_EPOCH where it is set, so that the same input gives the same bytes.
+std::int64_t mappingTime() {
+  const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
+  if (fixed == nullptr) {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::seconds>(now).count();
+  }
+  const std::string_view text = fixed;
+  std::int64_t seconds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error != std::errc{} || end != text.data() + text.size() || seconds < 0) {
+    throw ConfigError("SOURCE_DATE_EPOCH: found '" + std::string(text) + "', expected whole Unix seconds");
+  }
+  return seconds;
+}
+
 MissionRecord recordOf(const OpenedMission& opened, const MissionReport& report, const MapArgs& args) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
   return {.name = report.mission,
           .rig = rigText(opened.mission.rig),
           .parameters = parametersOf(args),
@@ -162,11 +196,16 @@ MissionRecord recordOf(const OpenedMission& opened, const MissionReport& report,
           .first = report.first_stamp,
           .last = report.last_stamp,
           .version = THERMOVOX_VERSION,
-          .mapped_at = std::chrono::duration_cast<std::chrono::seconds>(now).count()};
+          .mapped_at = args.mapped_at};
 }
 
 void runMap(MapArgs& args) {
   const auto begin = std::chrono::steady_clock::now();
+  if (!(args.max_gap > 0.0 && args.max_gap <= kLongestGap)) {
+    throw ConfigError("--max-gap: found " + std::to_string(args.max_gap) +
+                      " s, expected more than 0 and at most " + std::to_string(kLongestGap) + " s");
+  }
+  args.mapped_at = mappingTime();
   std::vector<OpenedMission> missions = openMissions(args);
   if (args.station.empty()) args.station = missions.front().mission.name + ".tvx";
   std::unique_ptr<PointsRecord> points;
@@ -176,9 +215,7 @@ void runMap(MapArgs& args) {
   }
   MapResult result;
   Station station = openStation(args);
-  for (const OpenedMission& opened : missions) {
-    if (args.known == KnownMission::refuse) station.checkNew(opened.mission.name);
-  }
+  if (args.known == KnownMission::refuse) checkNew(missions, station);
   for (OpenedMission& opened : missions) {
     ThermalMap map(station.options());
     result.missions.push_back(mapOne(opened, args, map, points.get()));

@@ -28,7 +28,7 @@ std::variant<Colour, NoColour> colour(const PlacedReturn& point, const ThermalVi
   const double variance_px2 = pixelVariance(camera.camera, view, p_camera, point.rig_covariance);
   const float local_variance = view.local_variance.at(*pixel, variance_px2);
   const float sigma = std::sqrt(sample->noise_sigma * sample->noise_sigma + local_variance);
-  return Colour{*pixel, sample->celsius, sigma, static_cast<float>(p_camera.norm())};
+  return Colour{view.frame.stamp, *pixel, sample->celsius, sigma, static_cast<float>(p_camera.norm())};
 }
 
 }  // namespace thermovox

@@ -10,6 +10,7 @@ namespace thermovox {
 
 /// The temperature of a point as one frame saw it.
 struct Colour {
+  Time frame_stamp;       ///< of the frame that saw it
   Eigen::Vector2d pixel;  ///< where the point projects
   float celsius = 0.0F;
   /// One standard deviation, C, of all but the camera's common bias:

@@ -29,9 +29,7 @@ void DepthSectors::Options::validate() const {
   if (radius_bins < 1 || radius_bins > 32) {
     throw ConfigError("radius_bins: expected 1 to 32, found " + std::to_string(radius_bins));
   }
-  if (sectors_needed < 1 || sectors_needed > kSectors) {
-    throw ConfigError("sectors_needed: expected 1 to 8, found " + std::to_string(sectors_needed));
-  }
+  if (more_bins < 0) throw ConfigError("more_bins: expected 0 or more, found " + std::to_string(more_bins));
   if (!(slope >= 0.0 && margin >= 0.0)) throw ConfigError("slope and margin: expected 0 or more");
 }
 
@@ -92,19 +90,22 @@ std::vector<DepthSectors::Ring> DepthSectors::rings() const {
 float DepthSectors::depthHiddenBeyond(std::ptrdiff_t bin, const std::vector<Ring>& rings) const {
   std::array<float, kSectors> sectors;
   sectors.fill(kNothing);
-  int more_rings = options_.more_rings;
+  int more_bins = options_.more_bins;
   for (const Ring& ring : rings) {
     for (const Neighbour& n : ring) {
       const float depth = nearest_[static_cast<std::size_t>(bin + n.offset)] * n.scale;
       sectors[n.sector] = std::min(sectors[n.sector], depth);
     }
-    const auto filled =
-        std::count_if(sectors.begin(), sectors.end(), [](float depth) { return depth < kNothing; });
-    if (filled >= options_.sectors_filled && more_rings-- == 0) break;
+    const bool all_answered =
+        std::all_of(sectors.begin(), sectors.end(), [](float depth) { return depth < kNothing; });
+    if (all_answered && more_bins-- == 0) break;
   }
-  const auto nth = sectors.begin() + (options_.sectors_needed - 1);
-  std::nth_element(sectors.begin(), nth, sectors.end());
-  return *nth + static_cast<float>(options_.margin);
+  // Between two opposite sectors that are both nearer: the farther of the two decides; the best pair counts.
+  float hidden_beyond = kNothing;
+  for (std::size_t i = 0; i < kSectors / 2; ++i) {
+    hidden_beyond = std::min(hidden_beyond, std::max(sectors[i], sectors[i + kSectors / 2]));
+  }
+  return hidden_beyond + static_cast<float>(options_.margin);
 }
 
 void DepthSectors::finish() {

@@ -12,23 +12,21 @@ namespace thermovox {
 /// Visibility from one frame, decided by the points that a laser measured around it.
 ///
 /// A one-pixel z-buffer is no occlusion test for sparse points: between the points of a near plate the wall
-/// behind shines through. So a pixel asks its neighbourhood: it is split into eight sectors, each sector
-/// tells its nearest surface, and a point is hidden when nearer surfaces stand in most sectors around it,
-/// that is, when it lies inside the silhouette of something and not merely beside it. A surface that slopes
-/// towards the camera must not hide itself: a neighbour d pixels away counts only by how much it is nearer
-/// than the steepest slope allowed could make it. The idea is the solid-angle test of Pintus, Gobbetti and
-/// Agus (2011), here once per pixel so that a query is one comparison.
+/// behind shines through. So a pixel asks its neighbourhood, as far as it has to until every one of eight
+/// sectors has an answer: the nearest surface in it. A point is hidden when nearer surfaces stand on two
+/// opposite sides of it, that is, when it lies inside the silhouette of something and not merely beside it.
+/// A surface that slopes towards the camera must not hide itself: a neighbour d pixels away counts only by
+/// how much it is nearer than the steepest slope allowed could make it. The idea is the solid-angle test of
+/// Pintus, Gobbetti and Agus (2011), here once per pixel so that a query is one comparison.
 class DepthSectors final : public Occluder {
  public:
   struct Options {
-    double bin_px = 0.0;     ///< edge of a bin; 0 chooses about 160 bins across the image
-    int radius_bins = 7;     ///< how far a pixel asks
-    int sectors_filled = 8;  ///< a pixel asks no further once so many sectors have an answer
-    int more_rings = 1;      ///< but for so many bins more
-    int sectors_needed = 4;  ///< of eight, with something nearer in them, to hide a point
-    double slope = 4.0;      ///< steepest surface that must not hide itself: metres nearer per metre aside
-    double margin = 0.08;    ///< metres a surface must at least be nearer to hide
-    void validate() const;   ///< throws ConfigError naming the field
+    double bin_px = 0.0;    ///< edge of a bin; 0 chooses about 160 bins across the image
+    int radius_bins = 7;    ///< how far a pixel asks
+    int more_bins = 1;      ///< how far it asks on once every sector has an answer
+    double slope = 4.0;     ///< steepest surface that must not hide itself: metres nearer per metre aside
+    double margin = 0.08;   ///< metres a surface must at least be nearer to hide
+    void validate() const;  ///< throws ConfigError naming the field
   };
 
   /// An empty view of a camera that stands at T_camera_world.
