@@ -209,6 +209,15 @@ Json stationInfo(const fs::path& file, bool verify) {
   return json;
 }
 
+/// A station may be too damaged to be opened; that too is an answer.
+Json verifiedStationInfo(const fs::path& file) {
+  try {
+    return stationInfo(file, true);
+  } catch (const DataError& error) {
+    return {{"kind", "station"}, {"ok", false}, {"faults", Json::array({error.what()})}};
+  }
+}
+
 Json describe(const InfoArgs& args) {
   switch (kindOf(args.thing)) {
     case Kind::image:
@@ -224,7 +233,7 @@ Json describe(const InfoArgs& args) {
     case Kind::station:
       break;
   }
-  return stationInfo(args.thing, args.verify);
+  return args.verify ? verifiedStationInfo(args.thing) : stationInfo(args.thing, false);
 }
 
 /// The same content as lines "key: value", nested keys with a dot.

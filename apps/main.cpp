@@ -42,8 +42,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);  // runs the verb's callback
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, std::cout, std::cerr) == 0 ? 0 : kWrongUsage;
+    if (app.exit(error, std::cout, std::cerr) != 0) return kWrongUsage;
   }
+  if (!std::cout.flush()) return fail("the results cannot be written to standard output", kFailed);
   return 0;
 }
 

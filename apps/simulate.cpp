@@ -51,13 +51,19 @@ class SetAside {
   bool moved_ = false;
 };
 
+/// "hall/" is the folder "hall".
+fs::path withoutSlash(const fs::path& folder) {
+  const fs::path normal = folder.lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
 void replaceMission(const simulate::SimulationOptions& options, const fs::path& out) {
   if (fs::exists(out) && !fs::exists(out / "mission.yaml")) {
     throw DataError(
         out.string() +
         ": exists and is no mission (no mission.yaml in it), expected a name that --force may replace");
   }
-  const SetAside mission(out);
+  const SetAside mission(withoutSlash(out));
   const SetAside truth(simulate::truthPath(out));
   simulate::simulateMission(options, out);
   mission.discard();

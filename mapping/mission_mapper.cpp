@@ -1,7 +1,7 @@
 #include "mapping/mission_mapper.hpp"
 
 #include <algorithm>
-#include <array>
+#include <limits>
 #include <utility>
 
 #include "mapping/surfaces_in_view.hpp"
@@ -38,6 +38,25 @@ const char* reasonName(NoColour reason) {
 
 void count(std::map<std::string, std::size_t>& counts, const char* reason, std::size_t n) {
   if (n > 0) counts[reason] += n;
+}
+
+/// No return entered the map: most likely the trajectory is of another time or another clock.
+std::string whyNoPoints(const MissionReport& report) {
+  const std::string readings = std::to_string(report.readings) + " readings";
+  const bool has_returns = std::any_of(report.dropped.begin(), report.dropped.end(), [](const auto& dropped) {
+    return dropped.first.find("trajectory") != std::string::npos;
+  });
+  if (!has_returns) {
+    return "mission " + report.mission + ": none of its " + readings +
+           " has a valid return, expected some within the range and intensity that the rig gives its laser";
+  }
+  std::string message = "mission " + report.mission + ": its trajectory covers none of its " + readings;
+  const char* separator = " (";
+  for (const auto& [reason, n] : report.dropped) {
+    message += separator + reason + " " + std::to_string(n);
+    separator = ", ";
+  }
+  return message + "), expected poses of the same time and clock";
 }
 
 Duration distance(Time a, Time b) {
@@ -155,7 +174,10 @@ void MissionMapper::closeFrame(WaitingFrame& frame) {
 }
 
 void MissionMapper::mapReading(const WaitingReading& reading) {
-  dropOldFrames(reading.first_stamp - options_.frame_limit);
+  Time first =
+      reading.first_stamp;  // a later sweep may begin earlier, if its points have times before its own
+  for (const auto& waiting : readings_) first = std::min(first, waiting->first_stamp);
+  dropOldFrames(first - options_.frame_limit);
   std::vector<ColouredReturn> coloured;
   std::vector<MappedReturn> mapped;
   coloured.reserve(reading.returns.size());
@@ -206,10 +228,7 @@ void MissionMapper::dropOldFrames(Time before) {
 
 MissionReport MissionMapper::finish() {
   advanceTo(Time::max());
-  if (report_.points == 0) {
-    throw DataError("mission " + mission_.name + ": none of its " + std::to_string(report_.readings) +
-                    " readings could be placed, expected a trajectory that covers them");
-  }
+  if (report_.points == 0) throw DataError(whyNoPoints(report_));
   return std::move(report_);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,7 +70,7 @@ class MissionMapper {
   void add(ThermalFrame frame);
   void add(Reading reading);
   /// Maps what is still waiting and returns the account. To be called once, last.
-  /// Throws DataError when the trajectory covers none of the readings.
+  /// Throws DataError when no return entered the map: the trajectory covers none, or none was valid.
   [[nodiscard]] MissionReport finish();
 
  private:
