@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -58,6 +59,8 @@ int main(int argc, char** argv) {
     return fail(error.what(), kUnobservable);
   } catch (const thermovox::Error& error) {
     return fail(error.what(), kFailed);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail((error.path1().string() + ": " + error.code().message()).c_str(), kFailed);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kFailed);
   } catch (const std::exception& error) {
