@@ -37,7 +37,7 @@ export_map() {
 
 clean() {
   mkdir -p "${out}" && cd "${out}" || return
-  rm -rf mission mission.truth.json demo.tvx demo.tvx-wal demo.tvx-shm points.csv map.{ply,pcd,bt,ot,png}
+  rm -rf hall hall.truth.json demo.tvx demo.tvx-wal demo.tvx-shm points.csv map.{ply,pcd,bt,ot,png}
 }
 
 mkdir -p build
@@ -45,12 +45,12 @@ mkdir -p build
 step "1/5 installing what is missing" install_packages build
 step "2/5 building (build/install, log: ${log})" build
 (clean)
-step "3/5 simulating a flight" "${thermovox}" simulate "${out}/mission" --laser cloud
-step "4/5 mapping it" "${thermovox}" map "${out}/mission" --station "${out}/demo.tvx" --points "${out}/points.csv"
+step "3/5 simulating a flight" "${thermovox}" simulate "${out}/hall" --laser cloud --duration 24
+step "4/5 mapping it" "${thermovox}" map "${out}/hall" --station "${out}/demo.tvx" --points "${out}/points.csv"
 step "5/5 exporting the map" export_map
 cat << END
 In ${out}/:
-  mission/            what the instruments recorded; mission.truth.json: the hall as it really is
+  hall/               what the instruments recorded; hall.truth.json: the hall as it really is
   demo.tvx            the station: the persistent map (thermovox info ${out}/demo.tvx)
   map.png             the map, coloured by temperature
   map.ply, map.pcd    a point a cell with temperature (CloudCompare, PCL viewer)
