@@ -102,7 +102,7 @@ void writeOverlayPicture(const std::filesystem::path& path, const ThermalImage& 
                          Existing existing) {
   const int zoom = std::max(1, options.width_px / std::max(1, image.width));
   const TemperatureSpan span =
-      options.span ? *options.span : percentileSpan(image.celsius, 1.0, 99.0).value_or(TemperatureSpan{});
+      options.span ? *options.span : percentileSpan(image.celsius, 1.0, 99.9).value_or(TemperatureSpan{});
   const TemperatureSpan distances = distanceSpan(points);
   const cv::Rect image_area(0, kHeaderPx, image.width * zoom, image.height * zoom);
   cv::Mat picture(image_area.height + kHeaderPx + kFooterPx, image_area.width, CV_8UC3,

@@ -25,7 +25,7 @@ struct OverlayPoint {
 struct OverlayOptions {
   std::string title;
   Palette palette = Palette::inferno;
-  std::optional<TemperatureSpan> span;  ///< Celsius; default: the image's 1st to 99th percentile
+  std::optional<TemperatureSpan> span;  ///< Celsius; default: the image's 1st to 99.9th percentile
   int width_px = 1280;  ///< of the picture; the image is enlarged by a whole factor to about it
 };
 

@@ -14,6 +14,13 @@
 
 namespace thermovox {
 
+// PCL's macros make anonymous structs in anonymous unions, which are no standard C++.
+#ifdef __clang__
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wgnu-anonymous-struct"
+#pragma clang diagnostic ignored "-Wnested-anon-types"
+#endif
+
 /// A cell that holds a surface, as a PCL point with the fields of the exported PCD.
 struct EIGEN_ALIGN16 PointThermal {
   PCL_ADD_POINT4D;  ///< metres, world
@@ -24,6 +31,10 @@ struct EIGEN_ALIGN16 PointThermal {
   double time;              ///< of the last one, Unix seconds; NaN without
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
+
+#ifdef __clang__
+#pragma clang diagnostic pop
+#endif
 
 /// `color(point)` gives a pcl::RGB.
 template <typename Color>
