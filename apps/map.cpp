@@ -94,6 +94,7 @@ MissionReport mapOne(OpenedMission& opened, const MapArgs& args, ThermalMap& map
   const MissionReport report = mapMission(opened.mission, *opened.readings, opened.frames.get(), map,
                                           args.mapper, sink, [&progress](Time stamp) { progress.at(stamp); });
   checkColours(report, opened.frames != nullptr);
+  if (points != nullptr) points->flush();  // a full disk shows before the station has the mission
   return report;
 }
 

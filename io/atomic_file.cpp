@@ -97,9 +97,13 @@ void AtomicFile::rewrite(std::uint64_t offset, std::string_view text) {
   if (::lseek(descriptor_, end, SEEK_SET) < 0) fail("cannot be written");
 }
 
-void AtomicFile::commit() {
+void AtomicFile::sync() {
   flush();
   if (::fsync(descriptor_) != 0) fail("cannot be written");
+}
+
+void AtomicFile::commit() {
+  sync();
   checkOutput(path_, existing_);
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be renamed into place");
   ::close(descriptor_);

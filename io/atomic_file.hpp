@@ -30,6 +30,8 @@ class AtomicFile {
   void write(std::span<const std::byte> bytes);
   /// Overwrites bytes that were written before (a count in a header that is known at the end).
   void rewrite(std::uint64_t offset, std::string_view text);
+  /// Brings what was written to the disk, still beside its name.
+  void sync();
   void commit();
 
   /// Where the bytes are until commit(): for libraries that write files by name.

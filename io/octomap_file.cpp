@@ -16,12 +16,23 @@ void writeStream(const std::filesystem::path& path, const std::ostringstream& st
   file.commit();
 }
 
+/// The bytes of OctoMap's writeBinary, which as Debian builds it says "done." on stderr.
+void writeBinary(octomap::OcTree& tree, std::ostream& stream) {
+  tree.toMaxLikelihood();
+  tree.prune();
+  stream << "# Octomap OcTree binary file\n"
+            "# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+         << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution()
+         << "\ndata\n";
+  tree.writeBinaryData(stream);
+}
+
 }  // namespace
 
 void writeBt(const std::filesystem::path& path, const ThermalMap& map, Existing existing) {
   checkOutput(path, existing);
   std::ostringstream stream;
-  if (!toOcTree(map)->writeBinary(stream)) throw DataError(path.string() + ": OctoMap cannot write this map");
+  writeBinary(*toOcTree(map), stream);
   writeStream(path, stream, existing);
 }
 

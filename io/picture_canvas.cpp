@@ -168,7 +168,7 @@ void drawTemperatureScale(cv::Mat& picture, const cv::Rect& area, const Temperat
 
 void writePng(const std::filesystem::path& path, const cv::Mat& picture, Existing existing) {
   std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9})) {
+  if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) {
     throw DataError(path.string() + ": the picture could not be encoded, expected 8 bits a channel");
   }
   AtomicFile file(path, existing);

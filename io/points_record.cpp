@@ -131,9 +131,14 @@ void PointsRecord::writeBefore(Time stamp) {
   waiting_.erase(waiting_.begin(), end);
 }
 
-void PointsRecord::commit() {
+void PointsRecord::flush() {
   writeBefore(Time::max());
   format_->end(file_, written_);
+  file_.sync();
+}
+
+void PointsRecord::commit() {
+  flush();
   file_.commit();
 }
 

@@ -27,6 +27,9 @@ class PointsRecord {
 
   /// Readings are to come in the order of their stamps; points within and across them are sorted here.
   void add(std::span<const ColouredReturn> reading);
+  /// Brings all that was added to the disk, still beside the file's name: for verbs that change something
+  /// else before commit(), which after this can hardly fail any more. What is added later stands behind it.
+  void flush();
   /// Writes what is left and puts the file into place.
   void commit();
 

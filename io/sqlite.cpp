@@ -147,7 +147,14 @@ SqlTransaction::~SqlTransaction() {
   try {
     database_.execute("ROLLBACK");
   } catch (const DataError&) {
-    // SQLite has rolled back on its own already (a full disk), or does so when the file is next opened.
+    // SQLite has rolled back on its own already.
+  }
+  try {
+    // After a failed write (a full disk) the pages in the file are put back at the next reading only; until
+    // then the journal beside it is a part of the database.
+    (void)database_.integer("SELECT count(*) FROM sqlite_master");
+  } catch (const DataError&) {
+    // Not now, then; whoever opens the file next does it.
   }
 }
 

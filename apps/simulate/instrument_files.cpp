@@ -2,6 +2,7 @@
 
 #include <tiffio.h>
 
+#include <cstdarg>
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -16,10 +17,27 @@ namespace {
   throw DataError(path.string() + ": could not be written, expected a folder with room for it");
 }
 
+struct FreeOptions {
+  void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
+};
+
+/// libtiff would print what goes wrong; its return values say it too.
+int passOver(TIFF* /*tiff*/, void* /*user_data*/, const char* /*module*/, const char* /*format*/,
+             va_list /*arguments*/) {
+  return 1;
+}
+
+std::unique_ptr<TIFF, decltype(&TIFFClose)> createTiff(const std::filesystem::path& path) {
+  const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), passOver, nullptr);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), passOver, nullptr);
+  return {TIFFOpenExt(path.c_str(), "w", options.get()), &TIFFClose};
+}
+
 }  // namespace
 
 void writeThermalTiff(const std::filesystem::path& path, int width, std::span<const std::uint16_t> counts) {
-  const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(TIFFOpen(path.c_str(), "w"), &TIFFClose);
+  const auto tiff = createTiff(path);
   if (!tiff) refuse(path);
   const auto columns = static_cast<std::size_t>(width);
   const std::size_t rows = counts.size() / columns;

@@ -1,6 +1,11 @@
 #include "apps/simulate/truth.hpp"
 
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "io/input_file.hpp"
+#include "projection/error.hpp"
 
 namespace thermovox::simulate {
 namespace {
@@ -21,6 +26,28 @@ const char* nameOf(LaserKind kind) {
       break;
   }
   return "cloud";
+}
+
+Eigen::Vector3d vectorFrom(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+Hall hallFrom(const Json& truth) {
+  std::vector<Box> boxes;
+  for (const Json& box : truth.at("boxes")) {
+    boxes.push_back({vectorFrom(box.at(0)), vectorFrom(box.at(1)), box.at(2).get<double>()});
+  }
+  std::vector<Cylinder> cylinders;
+  for (const Json& c : truth.at("cyls")) {
+    const auto number = [&c](std::size_t i) { return c.at(i).get<double>(); };
+    cylinders.push_back({number(0), number(1), number(2), number(3), number(4)});
+  }
+  std::vector<HotSpot> hot_spots;
+  for (const Json& spot : truth.at("hotspots")) {
+    const auto number = [&spot](const char* key) { return spot.at(key).get<double>(); };
+    hot_spots.push_back({vectorFrom(spot.at("position")), number("delta"), number("sigma"), number("peak")});
+  }
+  return {vectorFrom(truth.at("size")), std::move(boxes), std::move(cylinders), std::move(hot_spots)};
 }
 
 Json poseJson(const Pose& pose) {
@@ -56,6 +83,15 @@ std::string truthText(const Simulation& simulation, std::size_t readings) {
   }
   truth["T_body_laser"] = poseJson(simulation.trueBodyLaser());
   return truth.dump(1) + "\n";
+}
+
+Hall readTrueHall(const std::filesystem::path& file) {
+  const std::string text = readWhole(file);
+  try {
+    return hallFrom(Json::parse(text));
+  } catch (const nlohmann::json::exception& error) {
+    throw DataError(file.string() + ": " + error.what() + ", expected the truth of a simulated mission");
+  }
 }
 
 }  // namespace thermovox::simulate

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 #include "apps/simulate/simulation.hpp"
@@ -11,5 +12,9 @@ namespace thermovox::simulate {
 /// [low, high, Celsius], cyls [x, y, radius, top, Celsius], size [L, W, H], hotspots {position, delta, sigma,
 /// peak}, and the true T_body_laser; world frame, metres and Celsius.
 [[nodiscard]] std::string truthText(const Simulation& simulation, std::size_t readings);
+
+/// The hall of such a file, whoever wrote it. Throws DataError naming the file when it cannot be read or a
+/// key is missing or of another form.
+[[nodiscard]] Hall readTrueHall(const std::filesystem::path& file);
 
 }  // namespace thermovox::simulate
