@@ -4,6 +4,9 @@
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 
+#include <sstream>
+
+#include "mapping/octomap_adapter.hpp"
 #include "projection/error.hpp"
 #include "tests/support/recordings.hpp"
 #include "tests/support/same_map.hpp"
@@ -38,6 +41,15 @@ TEST(OctomapFile, BtHoldsTheStateOfEveryCell) {
   });
   tree.expand();
   EXPECT_EQ(tree.getNumLeafNodes(), cells);
+}
+
+TEST(OctomapFile, BtHasTheBytesOfOctomapsOwnWriter) {
+  const test::TestFolder folder;
+  const ThermalMap map = test::randomMission(9);
+  writeBt(folder / "map.bt", map, Existing::refuse);
+  std::ostringstream expected;
+  ASSERT_TRUE(toOcTree(map)->writeBinary(expected));
+  EXPECT_TRUE(test::bytesOf(folder / "map.bt") == expected.str());
 }
 
 TEST(OctomapFile, OtHoldsTheColoursOfTheSurface) {
