@@ -16,7 +16,7 @@ namespace {
 
 StampedFiles openList(const FrameRecording& recording) {
   return {std::make_unique<std::ifstream>(openInput(recording.list)), recording.list.string(),
-          recording.folder};
+          recording.folder, StampedFiles::Pages::allow};
 }
 
 /// The median of the times from frame to frame: a pause of the recording does not move it.
@@ -28,6 +28,8 @@ Duration medianPeriod(const FrameRecording& recording) {
     if (previous) periods.push_back(row->stamp - *previous);
     previous = row->stamp;
   }
+  if (!previous)
+    throw DataError(recording.list.string() + ": lists no image, expected timestamp,file[,page]");
   if (periods.empty()) return Duration::zero();
   const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
   std::nth_element(periods.begin(), middle, periods.end());

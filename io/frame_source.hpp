@@ -17,8 +17,8 @@ struct FrameRecording {
 
 /// A source that reads the frames one at a time. It goes through the list once at the start, for the frames'
 /// period (the median of their distances), and holds one image at a time.
-/// Throws DataError naming file and line of what is wrong with the list; next() also for an image that is
-/// missing, damaged or not of the camera's size.
+/// Throws DataError naming file and line of what is wrong with the list, or when it lists no image; next()
+/// also for an image that is missing, damaged or not of the camera's size.
 [[nodiscard]] std::unique_ptr<FrameSource> readFrames(const FrameRecording& recording,
                                                       const ThermalCamera& camera);
 

@@ -27,6 +27,9 @@ std::ifstream openInput(const fs::path& file, std::string_view named_by) {
   if (status.type() == fs::file_type::directory) {
     throw DataError(wanted(file, named_by) + ": is a folder, expected a file");
   }
+  if (status.type() != fs::file_type::regular && fs::exists(status)) {  // opening a pipe waits for its writer
+    throw DataError(wanted(file, named_by) + ": is a pipe or a device, expected a regular file");
+  }
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw DataError(wanted(file, named_by) + ": cannot be read: " + std::strerror(errno));

@@ -35,7 +35,7 @@ class BeamSource final : public ReadingSource {
                       " field(s), expected timestamp,range[,strength]");
     }
     BeamReading beam{.stamp = rows_.stamp(), .range = row.number(1)};
-    if (count == 3) beam.intensity = static_cast<float>(row.number(2));
+    if (count == 3 && !row.fields()[2].empty()) beam.intensity = static_cast<float>(row.number(2));
     return numbered(readingFromBeam(beam, laser_), index_);
   }
 
@@ -74,7 +74,8 @@ class ScanSource final : public ReadingSource {
 class CloudSource final : public ReadingSource {
  public:
   CloudSource(LaserRecording recording, const Laser& laser, std::size_t index)
-      : files_(std::move(recording.stream), std::move(recording.name), std::move(recording.folder)),
+      : files_(std::move(recording.stream), std::move(recording.name), std::move(recording.folder),
+               StampedFiles::Pages::refuse),
         laser_(laser),
         index_(index) {}
 

@@ -1,5 +1,6 @@
 #include "io/mission_folder.hpp"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <string_view>
@@ -28,13 +29,12 @@ double notNegative(const YamlMap& map, std::string_view key) {
   return number;
 }
 
-/// The name also names the station's file, hence no path in it.
+/// The name also names the station's file, hence no path in it and nothing that hides the file.
 std::string missionName(const YamlMap& map) {
   std::string name = map.text("name");
-  for (const char c : name) {
-    if (c == '/' || static_cast<unsigned char>(c) < 0x20) {
-      throw ConfigError(map.place("name") + ": found " + inQuotes(name) + ", expected a name without '/'");
-    }
+  if (name.front() == '.' || name.find('/') != std::string::npos || !isPrintableUtf8(name)) {
+    throw ConfigError(map.place("name") + ": found " + inQuotes(name) +
+                      ", expected printable UTF-8 without '/' that does not begin with a dot");
   }
   return name;
 }
@@ -49,12 +49,39 @@ Duration cameraTimeOffset(const YamlMap& map) {
   return durationFromSeconds(seconds);
 }
 
+/// A file given as a mission should be a mission.yaml; the other things that one might give are named.
+void refuseOtherKinds(const fs::path& file) {
+  using namespace std::string_view_literals;
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kinds{
+      {{"SQLite format 3\0"sv, "a station"sv},
+       {"#ROSBAG"sv, "a ROS bag (not read yet)"sv},
+       {"# .PCD"sv, "a point cloud"sv},
+       {"ply"sv, "a point cloud"sv},
+       {"II*\0"sv, "a TIFF image"sv},
+       {"MM\0*"sv, "a TIFF image"sv},
+       {"\x89PNG"sv, "a picture"sv},
+       {"\xFF\xD8\xFF"sv, "a picture"sv},
+       {"# Octomap OcTree"sv, "an OctoMap"sv}}};
+  std::string head(64, '\0');
+  std::ifstream stream = openInput(file);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  std::string_view found = head.find('\0') == std::string::npos ? ""sv : "a binary file"sv;
+  for (const auto& [magic, kind] : kinds) {
+    if (head.starts_with(magic)) found = kind;
+  }
+  if (!found.empty()) {
+    throw DataError(file.string() + ": is " + std::string(found) + ", expected a mission folder");
+  }
+}
+
 fs::path missionFile(const fs::path& folder) {
   std::error_code error;
   if (fs::is_directory(folder, error)) return folder / "mission.yaml";
   if (!fs::exists(folder, error)) {
     throw DataError(folder.string() + ": no such mission, expected a folder with a mission.yaml");
   }
+  refuseOtherKinds(folder);
   return folder;
 }
 

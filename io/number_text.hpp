@@ -19,6 +19,9 @@ namespace thermovox {
 /// The text without blanks, tabs and carriage returns at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
+/// Whether the text is well-formed UTF-8 (Unicode 15, table 3-7) without control characters.
+[[nodiscard]] bool isPrintableUtf8(std::string_view text);
+
 /// The text in quotes for a message: shortened to 40 characters, unprintable bytes as '?'.
 [[nodiscard]] std::string inQuotes(std::string_view text);
 

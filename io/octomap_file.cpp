@@ -40,10 +40,11 @@ void writeOt(const std::filesystem::path& path, const ThermalMap& map, const Col
              Existing existing) {
   checkOutput(path, existing);
   const TemperatureSpan span = spanOf(surfaceCloud(map), scale);
-  const auto tree = toColorOcTree(map, [&](const SurfaceCell& cell) {
-    const Rgb rgb = cell.observations > 0 ? colourOf(cell.mean(), span, scale.palette) : kUnknownColour;
-    return octomap::ColorOcTreeNode::Color(rgb.r, rgb.g, rgb.b);
-  });
+  const auto inOctomap = [](const Rgb& rgb) { return octomap::ColorOcTreeNode::Color(rgb.r, rgb.g, rgb.b); };
+  const auto colour = [&](const SurfaceCell& cell) {
+    return inOctomap(cell.observations > 0 ? colourOf(cell.mean(), span, scale.palette) : kUnknownColour);
+  };
+  const auto tree = toColorOcTree(map, colour, inOctomap(kUnknownColour));
   std::ostringstream stream;
   if (!tree->write(stream)) throw DataError(path.string() + ": OctoMap cannot write this map");
   writeStream(path, stream, existing);

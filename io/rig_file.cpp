@@ -183,7 +183,7 @@ Laser readLaser(const YamlMap& map) {
   }
   laser.range_sigma = notNegative(map, "range_sigma", std::nullopt);
   laser.range_bias_sigma = notNegative(map, "range_bias_sigma", 0.0);
-  laser.min_intensity = map.numberIf("min_intensity").value_or(0.0);
+  laser.min_intensity = map.numberIf("min_intensity").value_or(laser.min_intensity);
   if (laser.kind == LaserKind::scan) readAngles(map, laser);
   if (map.has("covariance_body_laser"))
     laser.covariance_body_laser = readCovariance(map, "covariance_body_laser", 6);

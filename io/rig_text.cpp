@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <span>
 #include <string_view>
 
@@ -112,7 +113,7 @@ void writeLaser(std::string& text, const Laser& laser, std::string_view first, s
   block.number("range_max", laser.range_max);
   block.number("range_sigma", laser.range_sigma);
   block.number("range_bias_sigma", laser.range_bias_sigma);
-  if (laser.min_intensity != 0.0) block.number("min_intensity", laser.min_intensity);
+  if (std::isfinite(laser.min_intensity)) block.number("min_intensity", laser.min_intensity);
   block.pose("T_body_laser", laser.T_body_laser);
   block.covariance("covariance_body_laser", laser.covariance_body_laser);
 }

@@ -7,16 +7,19 @@
 
 namespace thermovox {
 
-StampedFiles::StampedFiles(std::unique_ptr<std::istream> list, std::string name, std::filesystem::path folder)
-    : rows_(CsvReader(std::move(list), std::move(name))), folder_(std::move(folder)) {}
+StampedFiles::StampedFiles(std::unique_ptr<std::istream> list, std::string name, std::filesystem::path folder,
+                           Pages pages)
+    : rows_(CsvReader(std::move(list), std::move(name))), folder_(std::move(folder)), pages_(pages) {}
 
 std::optional<StampedFile> StampedFiles::next() {
   if (!rows_.next()) return std::nullopt;
   const auto& fields = rows_.row().fields();
-  if (fields.size() < 2 || fields.size() > 3 || fields[1].empty()) {
+  const bool paged = pages_ == Pages::allow;
+  if (fields.size() < 2 || fields.size() > (paged ? 3U : 2U)) {
     throw DataError(rows_.row().place() + ": has " + std::to_string(fields.size()) +
-                    " field(s), expected timestamp,file[,page]");
+                    " field(s), expected timestamp,file" + (paged ? "[,page]" : ""));
   }
+  if (fields[1].empty()) throw DataError(rows_.row().place() + ": names no file, expected timestamp,file");
   StampedFile row{.stamp = rows_.stamp(),
                   .file = folder_ / fields[1],
                   .written = std::string(fields[1]),

@@ -10,7 +10,7 @@
 
 namespace thermovox {
 
-/// A row of thermal.csv, visible.csv or clouds.csv: `timestamp,file[,page]`.
+/// A row of thermal.csv (`timestamp,file[,page]`), visible.csv or clouds.csv (`timestamp,file`).
 struct StampedFile {
   Time stamp;
   std::filesystem::path file;  ///< beside the list's own folder, where the row does not give a whole path
@@ -22,16 +22,21 @@ struct StampedFile {
 /// Reads such a list row by row.
 class StampedFiles {
  public:
+  /// Whether a row may name a page of its file.
+  enum class Pages { allow, refuse };
+
   /// `folder` is what the rows' files are relative to; `name` stands for the list in messages.
-  StampedFiles(std::unique_ptr<std::istream> list, std::string name, std::filesystem::path folder);
+  StampedFiles(std::unique_ptr<std::istream> list, std::string name, std::filesystem::path folder,
+               Pages pages);
 
   /// The next row; nullopt at the end. Throws DataError naming file and line: stamps that do not ascend, no
-  /// file, or a page that is no whole number from 0.
+  /// file, a page where none may be, or one that is no whole number from 0.
   [[nodiscard]] std::optional<StampedFile> next();
 
  private:
   StampedRows rows_;
   std::filesystem::path folder_;
+  Pages pages_;
 };
 
 }  // namespace thermovox

@@ -89,6 +89,8 @@ void checkIsFile(const fs::path& path) {
     throw DataError(path.string() + ": is a folder, expected a station file");
   if (!fs::exists(path, ignored))
     throw DataError(path.string() + ": does not exist, expected a station file");
+  if (!fs::is_regular_file(path, ignored))
+    throw DataError(path.string() + ": is no regular file, expected a station file");
   if (fs::file_size(path, ignored) == 0)
     throw DataError(path.string() + ": is empty, expected a station file");
 }

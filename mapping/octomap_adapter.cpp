@@ -1,7 +1,9 @@
 #include "mapping/octomap_adapter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "projection/error.hpp"
 
@@ -78,6 +80,16 @@ double rounded(double probability) {
   return std::round(probability * 1e6) / 1e6;
 }
 
+/// A leaf's log-odds, clamped as the model clamps a mission's own.
+LogOdds inQuanta(float log_odds, const OccupancyModel& model) {
+  if (!std::isfinite(log_odds)) {
+    throw DataError("an OctoMap holds a cell with log-odds of " + std::to_string(log_odds) +
+                    ", expected finite numbers");
+  }
+  const double quanta = std::clamp<double>(log_odds / model.quantum(), model.clampMin(), model.clampMax());
+  return static_cast<LogOdds>(std::lround(quanta));
+}
+
 ThermalMap::Options optionsOf(const octomap::OcTree& tree) {
   return {tree.getResolution(),
           {rounded(tree.getProbHit()), rounded(tree.getProbMiss()), rounded(tree.getClampingThresMin()),
@@ -96,7 +108,8 @@ std::unique_ptr<octomap::OcTree> toOcTree(const ThermalMap& map) {
   return tree;
 }
 
-std::unique_ptr<octomap::ColorOcTree> toColorOcTree(const ThermalMap& map, const SurfaceColor& color) {
+std::unique_ptr<octomap::ColorOcTree> toColorOcTree(const ThermalMap& map, const SurfaceColor& color,
+                                                    const octomap::ColorOcTreeNode::Color& elsewhere) {
   auto tree = emptyTree<ExactColorTree>(map);
   forEachKnown(map, [&](const octomap::OcTreeKey& key, int index, const Block& block) {
     octomap::ColorOcTreeNode* node = tree->setNodeValue(key, treeLogOdds(map, block, index), true);
@@ -104,6 +117,9 @@ std::unique_ptr<octomap::ColorOcTree> toColorOcTree(const ThermalMap& map, const
   });
   tree->updateInnerOccupancy();
   tree->prune();
+  for (auto node = tree->begin_tree(); node != tree->end_tree(); ++node) {
+    if (!node->isColorSet()) node->setColor(elsewhere);
+  }
   return tree;
 }
 
@@ -119,8 +135,7 @@ ThermalMap fromOcTree(const octomap::OcTree& tree) {
       throw DataError(
           "an OctoMap of more than 2^32 cells was given, expected one that fits into memory unpruned");
     }
-    const auto log_odds =
-        static_cast<LogOdds>(std::lround(leaf->getLogOdds() / map.occupancyModel().quantum()));
+    const LogOdds log_odds = inQuanta(leaf->getLogOdds(), map.occupancyModel());
     const CellKey corner = cellKeyOf(leaf.getIndexKey());
     for (std::int32_t z = corner.z; z < corner.z + edge; ++z) {
       for (std::int32_t y = corner.y; y < corner.y + edge; ++y) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -39,11 +40,12 @@ enum class LaserKind { beam, scan, cloud };
 struct Laser {
   LaserKind kind = LaserKind::beam;
   Pose T_body_laser;
-  double range_min = 0.0;                           ///< metres; shorter returns are dropped
-  double range_max = 100.0;                         ///< metres; longer returns are dropped
-  double range_sigma = 0.02;                        ///< noise of one range, one sigma, metres
-  double range_bias_sigma = 0.0;                    ///< error common to all readings, one sigma, metres
-  double min_intensity = 0.0;                       ///< weaker returns are dropped
+  double range_min = 0.0;         ///< metres; shorter returns are dropped
+  double range_max = 100.0;       ///< metres; longer returns are dropped
+  double range_sigma = 0.02;      ///< noise of one range, one sigma, metres
+  double range_bias_sigma = 0.0;  ///< error common to all readings, one sigma, metres
+  /// Weaker returns are dropped; intensities may be negative (decibels).
+  double min_intensity = -std::numeric_limits<double>::infinity();
   double angle_min = -0.75 * std::numbers::pi;      ///< scan: angle of the first range, radians
   double angle_increment = std::numbers::pi / 720;  ///< scan: radians from range to range
   Duration time_increment = Duration::zero();       ///< scan: time from range to range

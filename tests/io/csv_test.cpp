@@ -98,6 +98,17 @@ TEST(ParseNumber, RefusesWhatIsNotOneNumber) {
   }
 }
 
+TEST(IsPrintableUtf8, TakesWhatIsWellFormed) {
+  for (const char* text : {"hall-2026-11-22", "Halle Süd", "東側", "\xF0\x9F\x94\xA5"})
+    EXPECT_TRUE(isPrintableUtf8(text)) << text;
+}
+
+TEST(IsPrintableUtf8, RefusesDamagedSequencesAndControlCharacters) {
+  for (const char* text : {"a\x1F", "a\x7F", "\xC2\x85", "\x80", "a\xC3", "\xC0\xAF", "\xE0\x80\x80",
+                           "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xFF"})
+    EXPECT_FALSE(isPrintableUtf8(text)) << inQuotes(text);
+}
+
 TEST(ExactText, ReadsBackAsTheSameNumber) {
   for (const double number : {0.1, 1.0 / 3.0, -2.356194490192345, 1e-300, 123456789.123456789}) {
     EXPECT_EQ(parseNumber(exactText(number)), number);

@@ -49,6 +49,16 @@ TEST(BeamSource, ReadsRangesWithAndWithoutStrength) {
   EXPECT_FALSE(readings->next());
 }
 
+TEST(BeamSource, AnEmptyStrengthIsNotKnown) {
+  const auto reading = source(LaserKind::beam, "1,2,\n")->next();
+  ASSERT_EQ(reading->returns.size(), 1U);
+  EXPECT_TRUE(std::isnan(reading->returns[0].intensity));
+}
+
+TEST(BeamSource, KeepsNegativeStrengthsUnlessTheRigSaysOtherwise) {
+  EXPECT_EQ(source(LaserKind::beam, "1,2,-30\n")->next()->returns.size(), 1U);
+}
+
 TEST(BeamSource, CountsWhatIsNoReturn) {
   const auto readings = source(LaserKind::beam, "1,inf\n2,nan\n3,0\n4,-1\n5,0.01\n6,99\n");
   DroppedReturns dropped;
@@ -107,7 +117,9 @@ TEST(CloudSource, ReadsCloudsBesideTheList) {
   EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(open("10,clouds/b.ply\n")->next()); }),
               HasSubstr("clouds/b.ply (named by clouds.csv:1): no such file"));
   EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(open("10,\n")->next()); }),
-              HasSubstr("clouds.csv:1: has 2 field(s), expected timestamp,file"));
+              HasSubstr("clouds.csv:1: names no file, expected timestamp,file"));
+  EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(open("10,clouds/a.ply,0\n")->next()); }),
+              HasSubstr("clouds.csv:1: has 3 field(s), expected timestamp,file"));
 }
 
 TEST(MergeReadings, OrdersByTimeAndThenByLaser) {

@@ -1,6 +1,9 @@
 #include "io/mission_folder.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <map>
 
 #include "projection/error.hpp"
 #include "tests/io/tiff_writer.hpp"
@@ -168,6 +171,36 @@ TEST_F(MissionFolder, RefusesFramesWhoseClockRunsBackwards) {
   EXPECT_THAT(complaint<DataError>(), HasSubstr("thermal.csv:1: found page '-1'"));
 }
 
+TEST_F(MissionFolder, RefusesNamesThatNoStationShouldHave) {
+  for (const char* name : {".hidden", "'two/parts'", "\"tab\\t\"", "bad\xFF"}) {
+    SCOPED_TRACE(name);
+    const std::string text = std::string("name: ") + name + "\nrig: r\ntrajectory: t\nlaser: l\n";
+    EXPECT_THAT(messageOf<ConfigError>([&] { (void)parseMissionFile(text, "mission.yaml"); }),
+                HasSubstr("mission.yaml, name: found"));
+  }
+}
+
+TEST_F(MissionFolder, SaysWhatIsNoMission) {
+  const std::map<std::string, std::string> files{
+      {"SQLite format 3", "a station"}, {"#ROSBAG V2.0\n", "a ROS bag"}, {"# .PCD v.7\n", "a point cloud"}};
+  for (const auto& [head, kind] : files) {
+    const auto file = folder.write("thing", head + std::string(1, '\0'));
+    EXPECT_THAT(messageOf<DataError>([&] { (void)openMission(file); }),
+                AllOf(HasSubstr("is " + kind), HasSubstr("expected a mission folder")));
+  }
+}
+
+TEST_F(MissionFolder, RefusesPipesInsteadOfWaitingForTheirWriters) {
+  std::filesystem::remove(folder / "beam.csv");
+  ASSERT_EQ(::mkfifo((folder / "beam.csv").c_str(), 0600), 0);
+  EXPECT_THAT(complaint<DataError>(), AllOf(HasSubstr("beam.csv"), HasSubstr("expected a regular file")));
+}
+
+TEST_F(MissionFolder, RefusesAListWithoutImages) {
+  folder.write("thermal.csv", "timestamp,file\n");
+  EXPECT_THAT(complaint<DataError>(), AllOf(HasSubstr("thermal.csv"), HasSubstr("lists no image")));
+}
+
 TEST_F(MissionFolder, RefusesWhatMissionFilesDoNotSay) {
   const auto complaintAbout = [](const std::string& text) {
     return messageOf<ConfigError>([&] { static_cast<void>(parseMissionFile(text, "mission.yaml")); });
@@ -185,7 +218,8 @@ TEST_F(MissionFolder, RefusesWhatMissionFilesDoNotSay) {
               HasSubstr("pose_sigma.rotation: is -1"));
   EXPECT_THAT(complaintAbout(least + "camera_time_offset: 1e12\n"),
               HasSubstr("camera_time_offset: is 1e+12 s"));
-  EXPECT_THAT(complaintAbout("name: a/b\n"), HasSubstr("name: found 'a/b', expected a name without '/'"));
+  EXPECT_THAT(complaintAbout("name: a/b\n"),
+              HasSubstr("name: found 'a/b', expected printable UTF-8 without '/'"));
   EXPECT_THAT(complaintAbout("name: [a]\n"), HasSubstr("name: found a list, expected a text"));
 }
 

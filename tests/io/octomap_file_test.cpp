@@ -68,6 +68,7 @@ TEST(OctomapFile, OtHoldsTheColoursOfTheSurface) {
         cell.observations > 0 ? colourOf(cell.mean(), *scale.span, scale.palette) : kUnknownColour;
     ASSERT_EQ((Rgb{color.r, color.g, color.b}), expected);
   });
+  for (auto node = tree->begin_tree(); node != tree->end_tree(); ++node) ASSERT_TRUE(node->isColorSet());
 }
 
 TEST(OctomapFile, LeavesNothingBehindWhenTheMapDoesNotFit) {

@@ -104,6 +104,7 @@ laser:
   ASSERT_EQ(rig.lasers.size(), 2U);
   EXPECT_EQ(rig.lasers[0].kind, LaserKind::cloud);
   EXPECT_EQ(rig.lasers[0].min_intensity, 7.0);
+  EXPECT_EQ(rig.lasers[1].min_intensity, -std::numeric_limits<double>::infinity());  // nothing is too weak
   EXPECT_EQ(rig.lasers[1].time_increment.count(), 17360);
   EXPECT_EQ(rig.lasers[1].range_bias_sigma, 0.03);
   EXPECT_FALSE(rig.thermal_camera);

@@ -14,6 +14,8 @@ namespace {
 
 using test::randomMission;
 
+const octomap::ColorOcTreeNode::Color kGrey(128, 128, 128);
+
 /// Occupancy alone: block by block.
 void expectSameOccupancy(const ThermalMap& a, const ThermalMap& b) {
   ASSERT_EQ(a.options(), b.options());
@@ -89,10 +91,13 @@ TEST(OctomapAdapter, PruningDoesNotSmearColours) {
     block.surfaceOrNew(i).addTemperature(seen, Time{});
   }
   map.setBlock({0, 0, 0}, block);
-  const auto tree = toColorOcTree(map, [](const SurfaceCell& cell) {
-    const auto level = static_cast<std::uint8_t>(std::lround(cell.mean()));
-    return octomap::ColorOcTreeNode::Color(level, level, level);
-  });
+  const auto tree = toColorOcTree(
+      map,
+      [](const SurfaceCell& cell) {
+        const auto level = static_cast<std::uint8_t>(std::lround(cell.mean()));
+        return octomap::ColorOcTreeNode::Color(level, level, level);
+      },
+      kGrey);
   const CellKey hot = cellAt({0, 0, 0}, 77);
   const Eigen::Vector3d p = map.centerOf(hot);
   EXPECT_EQ(tree->search(p.x(), p.y(), p.z())->getColor().r, 120);
@@ -100,10 +105,23 @@ TEST(OctomapAdapter, PruningDoesNotSmearColours) {
   EXPECT_LT(tree->getNumLeafNodes(), 64U);  // but equal ones are pruned
 }
 
+TEST(OctomapAdapter, EveryNodeHasAColour) {
+  ThermalMap map({.resolution = 0.1});
+  map.integrate(std::vector<MappedReturn>{{{1.05, 0.05, 0.05}, {0.05, 0.05, 0.05}, Time{}, {}}},
+                Carving::octomap);
+  const octomap::ColorOcTreeNode::Color hot(200, 100, 0);
+  const auto tree = toColorOcTree(
+      map, [&](const SurfaceCell&) { return hot; }, kGrey);
+  EXPECT_EQ(tree->search(1.05, 0.05, 0.05)->getColor(), hot);
+  EXPECT_EQ(tree->search(0.45, 0.05, 0.05)->getColor(), kGrey);  // free
+  EXPECT_EQ(tree->getRoot()->getColor(), hot);                   // not thinned by the free cells below
+  for (auto node = tree->begin_tree(); node != tree->end_tree(); ++node) EXPECT_TRUE(node->isColorSet());
+}
+
 TEST(OctomapAdapter, ColourTreesSurviveTheirFile) {
   const ThermalMap map = randomMission(5);
-  const auto tree =
-      toColorOcTree(map, [](const SurfaceCell&) { return octomap::ColorOcTreeNode::Color(1, 2, 3); });
+  const auto tree = toColorOcTree(
+      map, [](const SurfaceCell&) { return octomap::ColorOcTreeNode::Color(1, 2, 3); }, kGrey);
   std::stringstream file;
   tree->write(file);
   const std::unique_ptr<octomap::AbstractOcTree> read(octomap::AbstractOcTree::read(file));
