@@ -89,10 +89,11 @@ MissionReport mapOne(OpenedMission& opened, const MapArgs& args, ThermalMap& map
   const Trajectory& trajectory = opened.mission.trajectory;
   Progress progress("mapping " + opened.mission.name, trajectory.poses().front().stamp,
                     trajectory.poses().back().stamp);
-  MissionMapper::Sink sink;
-  if (points != nullptr) sink = [points](std::span<const ColouredReturn> reading) { points->add(reading); };
-  const MissionReport report = mapMission(opened.mission, *opened.readings, opened.frames.get(), map,
-                                          args.mapper, sink, [&progress](Time stamp) { progress.at(stamp); });
+  MissionListeners listeners{.progress = [&progress](Time stamp) { progress.at(stamp); }};
+  if (points != nullptr)
+    listeners.points = [points](std::span<const ColouredReturn> reading) { points->add(reading); };
+  const MissionReport report =
+      mapMission({opened.mission, *opened.readings, opened.frames.get()}, map, args.mapper, listeners);
   checkColours(report, opened.frames != nullptr);
   if (points != nullptr) points->flush();  // a full disk shows before the station has the mission
   return report;

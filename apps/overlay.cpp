@@ -200,10 +200,10 @@ void runOverlay(OverlayArgs& args) {
   {
     const auto poses = opened.mission.trajectory.poses();
     Progress progress("drawing " + opened.mission.name, poses.front().stamp, poses.back().stamp);
-    const auto report = mapMission(
-        opened.mission, *opened.readings, opened.frames.get(), map, {},
-        [&series](std::span<const ColouredReturn> reading) { series.add(reading); },
-        [&progress](Time stamp) { progress.at(stamp); });
+    const auto report =
+        mapMission({opened.mission, *opened.readings, opened.frames.get()}, map, {},
+                   {.points = [&series](std::span<const ColouredReturn> reading) { series.add(reading); },
+                    .progress = [&progress](Time stamp) { progress.at(stamp); }});
     if (report.coloured == 0) {
       throw DataError(args.mission.string() +
                       ": no laser point falls into a thermal image, expected some; check clocks and rig");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "mapping/surfaces_in_view.hpp"
@@ -12,77 +13,50 @@ namespace {
 
 constexpr Duration kFrameSlack = std::chrono::milliseconds(50);
 
-const char* reasonName(NoPose reason) {
+Dropped reasonOf(NoPose reason) {
   switch (reason) {
     case NoPose::before_start:
-      return "before_trajectory";
+      return Dropped::before_trajectory;
     case NoPose::after_end:
-      return "after_trajectory";
+      return Dropped::after_trajectory;
     case NoPose::gap:
       break;
   }
-  return "trajectory_gap";
-}
-
-const char* reasonName(NoColour reason) {
-  switch (reason) {
-    case NoColour::outside_image:
-      return "outside_image";
-    case NoColour::hidden:
-      return "hidden";
-    case NoColour::unknown_pixel:
-      break;
-  }
-  return "unknown_pixel";
-}
-
-void count(std::map<std::string, std::size_t>& counts, const char* reason, std::size_t n) {
-  if (n > 0) counts[reason] += n;
+  return Dropped::trajectory_gap;
 }
 
 /// No return entered the map: most likely the trajectory is of another time or another clock.
-std::string whyNoPoints(const MissionReport& report) {
+std::string whyNoPoints(const MissionReport& report, std::size_t without_pose) {
   const std::string readings = std::to_string(report.readings) + " readings";
-  const bool has_returns = std::any_of(report.dropped.begin(), report.dropped.end(), [](const auto& dropped) {
-    return dropped.first.find("trajectory") != std::string::npos;
-  });
-  if (!has_returns) {
+  if (without_pose == 0) {
     return "mission " + report.mission + ": none of its " + readings +
            " has a valid return, expected some within the range and intensity that the rig gives its laser";
   }
   std::string message = "mission " + report.mission + ": its trajectory covers none of its " + readings;
   const char* separator = " (";
   for (const auto& [reason, n] : report.dropped) {
-    message += separator + reason + " " + std::to_string(n);
+    message.append(separator).append(reason).append(" ").append(std::to_string(n));
     separator = ", ";
   }
   return message + "), expected poses of the same time and clock";
 }
 
-Duration distance(Time a, Time b) {
-  return a < b ? b - a : a - b;
-}
-
-MappedReturn mappedReturn(const ColouredReturn& point) {
-  MappedReturn mapped{point.placed.p_world, point.placed.origin_world, point.placed.stamp, std::nullopt};
-  if (point.colour) {
-    mapped.temperature = TemperatureObservation{.celsius = point.colour->celsius,
-                                                .sigma = point.colour->sigma,
-                                                .range = point.colour->range,
-                                                .incidence = std::numeric_limits<float>::quiet_NaN()};
+MappedReturn mappedReturn(const PlacedReturn& placed, const std::optional<FrameColour>& found) {
+  MappedReturn mapped{placed.p_world, placed.origin_world, placed.stamp, std::nullopt};
+  if (found) {
+    mapped.temperature =
+        TemperatureObservation{.celsius = found->colour.celsius,
+                               .sigma = found->colour.sigma * static_cast<float>(found->sample),
+                               .range = found->colour.range,
+                               .incidence = std::numeric_limits<float>::quiet_NaN()};
   }
   return mapped;
 }
 
 }  // namespace
 
-struct MissionMapper::WaitingFrame {
-  ThermalView view;
-  DepthSectors occluder;
-};
-
 struct MissionMapper::WaitingReading {
-  Time first_stamp;
+  Time first_stamp;  ///< of its returns: a sweep may be stamped at its end
   Time last_stamp;
   std::vector<PlacedReturn> returns;
 };
@@ -93,98 +67,110 @@ void MissionMapper::Options::validate() const {
   visibility.validate();
 }
 
-MissionMapper::MissionMapper(const Mission& mission, ThermalMap& map, Duration frame_period,
-                             const Options& options, Sink sink)
+MissionMapper::MissionMapper(const Mission& mission, ThermalMap& map, const Options& options, Sink sink)
     : mission_(mission), map_(map), options_(options), sink_(std::move(sink)) {
   options_.validate();
-  if (options_.frame_limit == Duration::zero()) options_.frame_limit = frame_period / 2 + kFrameSlack;
+  if (options_.frame_limit == Duration::zero()) options_.frame_limit = kFrameSlack;
+  options_.lookahead = std::max(options_.lookahead, options_.frame_limit);
   report_.mission = mission.name;
+  if (mission.rig.thermal_camera) {
+    frames_.emplace(*mission.rig.thermal_camera,
+                    FrameWindow::Options{options_.frame_limit, options_.lookahead, options_.visibility});
+  }
 }
 
 MissionMapper::~MissionMapper() = default;
 
-Time MissionMapper::dueTime(const WaitingFrame& frame) const {
-  return frame.view.frame.stamp + options_.lookahead;
-}
-
-Time MissionMapper::dueTime(const WaitingReading& reading) const {
-  return reading.last_stamp + options_.frame_limit + options_.lookahead;
-}
-
 void MissionMapper::add(ThermalFrame frame) {
-  if (!mission_.rig.thermal_camera)
-    throw ConfigError("a thermal frame came in, but the rig has no thermal_camera");
+  if (!frames_) throw ConfigError("a thermal frame came in, but the rig has no thermal_camera");
   advanceTo(frame.stamp);
   ++report_.frames;
+  std::optional<Pose> T_world_camera;
   const std::variant<Pose, NoPose> T_world_body = mission_.trajectory.at(frame.stamp);
-  if (!std::holds_alternative<Pose>(T_world_body)) {
+  if (const Pose* pose = std::get_if<Pose>(&T_world_body)) {
+    T_world_camera = *pose * mission_.rig.thermal_camera->T_body_camera;
+  } else {
     ++report_.frames_without_pose;
-    return;
   }
-  const ThermalCamera& camera = *mission_.rig.thermal_camera;
-  ThermalView view(std::move(frame), std::get<Pose>(T_world_body) * camera.T_body_camera, camera);
-  DepthSectors occluder(camera.camera, view.T_camera_world, options_.visibility);
-  frames_.push_back(std::make_unique<WaitingFrame>(WaitingFrame{std::move(view), std::move(occluder)}));
+  frames_->add(std::move(frame), T_world_camera);
 }
 
 void MissionMapper::add(Reading reading) {
+  if (reading.laser >= mission_.rig.lasers.size()) {
+    throw ConfigError("a reading of laser " + std::to_string(reading.laser) + " came in, but the rig has " +
+                      std::to_string(mission_.rig.lasers.size()));
+  }
   advanceTo(reading.stamp);
   ++report_.readings;
-  count(report_.dropped, "no_return", reading.dropped.no_return);
-  count(report_.dropped, "too_near", reading.dropped.too_near);
-  count(report_.dropped, "too_far", reading.dropped.too_far);
-  count(report_.dropped, "too_weak", reading.dropped.too_weak);
+  dropped_.add(Dropped::no_return, reading.dropped.no_return);
+  dropped_.add(Dropped::too_near, reading.dropped.too_near);
+  dropped_.add(Dropped::too_far, reading.dropped.too_far);
+  dropped_.add(Dropped::too_weak, reading.dropped.too_weak);
+  dropped_.add(Dropped::bad_time, reading.dropped.bad_time);
 
   WaitingReading waiting{.first_stamp = reading.stamp, .last_stamp = reading.stamp};
   waiting.returns.reserve(reading.returns.size());
   for (const LaserReturn& laser_return : reading.returns) {
     const auto placed = place(laser_return, mission_.rig.lasers[reading.laser], mission_);
     if (const NoPose* reason = std::get_if<NoPose>(&placed)) {
-      count(report_.dropped, reasonName(*reason), 1);
+      dropped_.add(reasonOf(*reason));
       continue;
     }
     waiting.returns.push_back(std::get<PlacedReturn>(placed));
     waiting.first_stamp = std::min(waiting.first_stamp, laser_return.stamp);
     waiting.last_stamp = std::max(waiting.last_stamp, laser_return.stamp);
   }
-  readings_.push_back(std::make_unique<WaitingReading>(std::move(waiting)));
+  readings_.push_back(std::move(waiting));
 }
 
 void MissionMapper::advanceTo(Time now) {
+  const Duration delay = options_.frame_limit + options_.lookahead;
   while (true) {
-    const bool frame_due = closed_frames_ < frames_.size() && dueTime(*frames_[closed_frames_]) < now;
-    const bool reading_due = !readings_.empty() && dueTime(*readings_.front()) < now;
-    if (!frame_due && !reading_due) return;
-    if (frame_due && (!reading_due || dueTime(*frames_[closed_frames_]) <= dueTime(*readings_.front()))) {
-      closeFrame(*frames_[closed_frames_]);
-      ++closed_frames_;
-    } else {
-      mapReading(*readings_.front());
+    const std::optional<Time> frame_due = frames_ ? frames_->nextDue() : std::nullopt;
+    const bool close = frame_due && *frame_due < now;
+    const bool map = !readings_.empty() && readings_.front().last_stamp + delay < now;
+    if (close && !(map && readings_.front().last_stamp + delay < *frame_due)) {
+      closeFrame();
+    } else if (map) {
+      mapReading(readings_.front());
       readings_.pop_front();
+    } else {
+      break;
     }
   }
+  if (frames_) frames_->dropBefore(earliestWaiting(now));
 }
 
-void MissionMapper::closeFrame(WaitingFrame& frame) {
-  addSurfacesInView(map_, frame.view.T_camera_world, frame.occluder);
-  for (const auto& reading : readings_) {
-    for (const PlacedReturn& placed : reading->returns) frame.occluder.add(placed.p_world);
-  }
-  frame.occluder.finish();
+Time MissionMapper::earliestWaiting(Time now) const {
+  Time earliest = now;
+  for (const WaitingReading& waiting : readings_) earliest = std::min(earliest, waiting.first_stamp);
+  return earliest;
+}
+
+void MissionMapper::closeFrame() {
+  const Time stamp = frames_->nextStamp();
+  const bool wanted = std::any_of(readings_.begin(), readings_.end(), [&](const WaitingReading& reading) {
+    return reading.first_stamp - options_.frame_limit <= stamp &&
+           stamp <= reading.last_stamp + options_.frame_limit;
+  });
+  if (!wanted) return frames_->closeNext(nullptr);
+  frames_->closeNext([this](DepthSectors& depths) {
+    addSurfacesInView(map_, depths.T_camera_world(), depths);
+    for (const WaitingReading& reading : readings_) {
+      for (const PlacedReturn& placed : reading.returns) depths.add(placed.p_world);
+    }
+  });
 }
 
 void MissionMapper::mapReading(const WaitingReading& reading) {
-  Time first =
-      reading.first_stamp;  // a later sweep may begin earlier, if its points have times before its own
-  for (const auto& waiting : readings_) first = std::min(first, waiting->first_stamp);
-  dropOldFrames(first - options_.frame_limit);
   std::vector<ColouredReturn> coloured;
   std::vector<MappedReturn> mapped;
   coloured.reserve(reading.returns.size());
   mapped.reserve(reading.returns.size());
   for (const PlacedReturn& placed : reading.returns) {
-    coloured.push_back(colourReturn(placed));
-    mapped.push_back(mappedReturn(coloured.back()));
+    const std::optional<FrameColour> found = colourReturn(placed);
+    mapped.push_back(mappedReturn(placed, found));
+    coloured.push_back({placed, found ? std::optional(found->colour) : std::nullopt});
     report_.first_stamp = std::min(report_.first_stamp.value_or(placed.stamp), placed.stamp);
     report_.last_stamp = std::max(report_.last_stamp.value_or(placed.stamp), placed.stamp);
   }
@@ -193,56 +179,43 @@ void MissionMapper::mapReading(const WaitingReading& reading) {
   if (sink_) sink_(coloured);
 }
 
-ColouredReturn MissionMapper::colourReturn(const PlacedReturn& placed) {
-  if (!mission_.rig.thermal_camera) {
-    count(report_.uncoloured, "no_camera", 1);
-    return {placed, std::nullopt};
+std::optional<FrameColour> MissionMapper::colourReturn(const PlacedReturn& placed) {
+  const std::variant<FrameColour, Uncoloured> result =
+      frames_ ? frames_->colour(placed) : std::variant<FrameColour, Uncoloured>(Uncoloured::no_camera);
+  if (const Uncoloured* reason = std::get_if<Uncoloured>(&result)) {
+    uncoloured_.add(*reason);
+    return std::nullopt;
   }
-  std::vector<const WaitingFrame*> candidates;
-  for (std::size_t i = 0; i < closed_frames_; ++i) {
-    if (distance(frames_[i]->view.frame.stamp, placed.stamp) <= options_.frame_limit)
-      candidates.push_back(frames_[i].get());
-  }
-  std::stable_sort(candidates.begin(), candidates.end(), [&](const WaitingFrame* a, const WaitingFrame* b) {
-    return distance(a->view.frame.stamp, placed.stamp) < distance(b->view.frame.stamp, placed.stamp);
-  });
-  const char* why_not = "no_frame";
-  for (const WaitingFrame* frame : candidates) {
-    const auto result = colour(placed, frame->view, *mission_.rig.thermal_camera, frame->occluder);
-    if (const Colour* found = std::get_if<Colour>(&result)) {
-      ++report_.coloured;
-      return {placed, *found};
-    }
-    if (frame == candidates.front()) why_not = reasonName(std::get<NoColour>(result));
-  }
-  count(report_.uncoloured, why_not, 1);
-  return {placed, std::nullopt};
-}
-
-void MissionMapper::dropOldFrames(Time before) {
-  while (closed_frames_ > 0 && frames_.front()->view.frame.stamp < before) {
-    frames_.pop_front();
-    --closed_frames_;
-  }
+  ++report_.coloured;
+  return std::get<FrameColour>(result);
 }
 
 MissionReport MissionMapper::finish() {
   advanceTo(Time::max());
-  if (report_.points == 0) throw DataError(whyNoPoints(report_));
+  report_.dropped = namedCounts(dropped_);
+  report_.uncoloured = namedCounts(uncoloured_);
+  if (report_.points == 0) {
+    const std::size_t without_pose = dropped_.of(Dropped::before_trajectory) +
+                                     dropped_.of(Dropped::after_trajectory) +
+                                     dropped_.of(Dropped::trajectory_gap);
+    throw DataError(whyNoPoints(report_, without_pose));
+  }
   return std::move(report_);
 }
 
-MissionReport mapMission(const Mission& mission, ReadingSource& readings, FrameSource* frames,
-                         ThermalMap& map, const MissionMapper::Options& options, MissionMapper::Sink sink,
-                         const std::function<void(Time)>& progress) {
-  MissionMapper mapper(mission, map, frames != nullptr ? frames->period() : Duration::zero(), options,
-                       std::move(sink));
+MissionReport mapMission(const MissionStreams& streams, ThermalMap& map, MissionMapper::Options options,
+                         const MissionListeners& listeners) {
+  FrameSource* frames = streams.frames;
+  if (frames != nullptr && options.frame_limit == Duration::zero()) {
+    options.frame_limit = frames->period() / 2 + kFrameSlack;
+  }
+  MissionMapper mapper(streams.mission, map, options, listeners.points);
   std::optional<ThermalFrame> frame = frames != nullptr ? frames->next() : std::nullopt;
-  while (std::optional<Reading> reading = readings.next()) {
+  while (std::optional<Reading> reading = streams.readings.next()) {
     for (; frame && frame->stamp <= reading->stamp; frame = frames->next()) mapper.add(std::move(*frame));
     const Time stamp = reading->stamp;
     mapper.add(std::move(*reading));
-    if (progress) progress(stamp);
+    if (listeners.progress) listeners.progress(stamp);
   }
   for (; frame; frame = frames->next()) mapper.add(std::move(*frame));
   return mapper.finish();

@@ -3,16 +3,14 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "mapping/frame_window.hpp"
+#include "mapping/mission_report.hpp"
 #include "mapping/thermal_map.hpp"
-#include "projection/colouring.hpp"
-#include "projection/depth_sectors.hpp"
 #include "projection/mission.hpp"
 #include "projection/sources.hpp"
 
@@ -24,35 +22,25 @@ struct ColouredReturn {
   std::optional<Colour> colour;
 };
 
-/// What became of a mission's returns. points = coloured + the sum of uncoloured; dropped ones never entered
-/// the map.
-struct MissionReport {
-  std::string mission;
-  std::size_t readings = 0;  ///< sweeps: single ranges, scan lines or clouds
-  std::size_t points = 0;
-  std::size_t coloured = 0;
-  std::map<std::string, std::size_t> uncoloured;  ///< by reason
-  std::map<std::string, std::size_t> dropped;     ///< by reason
-  std::size_t frames = 0;
-  std::size_t frames_without_pose = 0;
-  std::optional<Time> first_stamp;  ///< of the points
-  std::optional<Time> last_stamp;
-};
-
 /// The one way from readings and frames to the map, for folders, bags and instruments alike.
 ///
 /// A return takes its temperature from the frame nearest in time that sees it. To know what stands before a
 /// point, a frame first waits for `lookahead` of laser data after it; then what the map holds and what is
-/// still waiting decide (DepthSectors). So readings enter the map with a delay of lookahead + frame limit,
-/// and the memory in use is bounded by that delay, whatever the length of the mission. All decisions go by
-/// stamps alone: the result does not depend on when the data arrive, only on their order by stamp.
+/// still waiting decide (DepthSectors). So readings enter the map with a delay of lookahead + frame limit +
+/// their own length, and the memory in use is bounded by that delay, whatever the length of the mission. All
+/// decisions go by stamps alone: the result does not depend on when the data arrive, only on their order by
+/// stamp.
+///
+/// Returns that one pixel of one frame colours share its noise, so that the map takes the k-th of them with k
+/// times its sigma: together they weigh less than 1.65 of the first.
 class MissionMapper {
  public:
   struct Options {
     Carving carving = Carving::octomap;
-    /// Farthest in time that a frame may be from the return it colours; zero: half a frame period + 50 ms.
+    /// Farthest in time that a frame may be from the return it colours. Zero: half a frame period + 50 ms
+    /// where the period is known (mapMission), 50 ms where not.
     Duration frame_limit = Duration::zero();
-    /// Laser data after a frame that its visibility waits for.
+    /// Laser data after a frame that its visibility waits for; at least the frame limit is taken.
     Duration lookahead = std::chrono::milliseconds(500);
     DepthSectors::Options visibility;
     void validate() const;  ///< throws ConfigError naming the field
@@ -60,13 +48,12 @@ class MissionMapper {
   /// Receives every return that entered the map, readings in the order of their stamps.
   using Sink = std::function<void(std::span<const ColouredReturn> reading)>;
 
-  /// The mission must outlive the mapper. `frame_period` is the usual time from frame to frame (zero:
-  /// unknown).
-  MissionMapper(const Mission& mission, ThermalMap& map, Duration frame_period, const Options& options,
-                Sink sink = {});
+  /// Mission and map must outlive the mapper.
+  MissionMapper(const Mission& mission, ThermalMap& map, const Options& options, Sink sink = {});
   ~MissionMapper();
 
-  /// Frames and readings are to be added in ascending order of their stamps, the two merged.
+  /// Frames and readings are to be added in ascending order of their stamps, the two merged. Throws
+  /// ConfigError for a frame when the rig has no thermal camera, or a reading of a laser it does not have.
   void add(ThermalFrame frame);
   void add(Reading reading);
   /// Maps what is still waiting and returns the account. To be called once, last.
@@ -74,31 +61,40 @@ class MissionMapper {
   [[nodiscard]] MissionReport finish();
 
  private:
-  struct WaitingFrame;
   struct WaitingReading;
   void advanceTo(Time now);
-  void closeFrame(WaitingFrame& frame);
+  void closeFrame();
   void mapReading(const WaitingReading& reading);
-  [[nodiscard]] ColouredReturn colourReturn(const PlacedReturn& placed);
-  void dropOldFrames(Time before);
-  [[nodiscard]] Time dueTime(const WaitingFrame& frame) const;
-  [[nodiscard]] Time dueTime(const WaitingReading& reading) const;
+  [[nodiscard]] std::optional<FrameColour> colourReturn(const PlacedReturn& placed);
+  [[nodiscard]] Time earliestWaiting(Time now) const;
 
   const Mission& mission_;
   ThermalMap& map_;
   Options options_;
   Sink sink_;
   MissionReport report_;
-  std::deque<std::unique_ptr<WaitingFrame>> frames_;  ///< ascending; the closed ones first
-  std::size_t closed_frames_ = 0;
-  std::deque<std::unique_ptr<WaitingReading>> readings_;
+  DroppedCounts dropped_;
+  UncolouredCounts uncoloured_;
+  std::optional<FrameWindow> frames_;  ///< none without a thermal camera
+  std::deque<WaitingReading> readings_;
 };
 
-/// Feeds a whole mission through a mapper, frames and readings merged by stamp. `frames` may be null.
-/// `progress` is called after every reading with its stamp.
-[[nodiscard]] MissionReport mapMission(const Mission& mission, ReadingSource& readings, FrameSource* frames,
-                                       ThermalMap& map, const MissionMapper::Options& options,
-                                       MissionMapper::Sink sink = {},
-                                       const std::function<void(Time)>& progress = {});
+/// A mission with its streams; `frames` may be null.
+struct MissionStreams {
+  const Mission& mission;
+  ReadingSource& readings;
+  FrameSource* frames = nullptr;
+};
+
+/// Who wants to hear of a mission while it is mapped; each may be empty.
+struct MissionListeners {
+  MissionMapper::Sink points;
+  std::function<void(Time)> progress;  ///< after every reading, with its stamp
+};
+
+/// Feeds a whole mission through a mapper, frames and readings merged by stamp.
+[[nodiscard]] MissionReport mapMission(const MissionStreams& streams, ThermalMap& map,
+                                       MissionMapper::Options options,
+                                       const MissionListeners& listeners = {});
 
 }  // namespace thermovox

@@ -32,6 +32,8 @@ class DepthSectors final : public Occluder {
   /// An empty view of a camera that stands at T_camera_world.
   DepthSectors(const Camera& camera, const Pose& T_camera_world, const Options& options);
 
+  [[nodiscard]] const Pose& T_camera_world() const { return T_camera_world_; }
+
   /// Adds surface points (world, metres). Points outside the image (and a rim of the radius) do nothing.
   void add(std::span<const Eigen::Vector3d> points_world);
   void add(const Eigen::Vector3d& p_world);

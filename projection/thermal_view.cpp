@@ -9,7 +9,7 @@ namespace thermovox {
 namespace {
 
 /// Windows beyond the blur, as factors of its variance: errors from a fraction of a pixel to several.
-constexpr std::array<double, 3> kWindowFactors{1.0, 4.0, 16.0};
+constexpr std::array<double, 4> kWindowFactors{1.0, 4.0, 16.0, 64.0};
 /// Of a pixel's own width, px^2: no optics mix less than that.
 constexpr double kPixelVariance = 1.0 / 12.0;
 
@@ -153,14 +153,17 @@ LocalVariance::LocalVariance(const ThermalImage& image, double blur_px, double n
 
 float LocalVariance::at(const Eigen::Vector2d& pixel, double variance_px2) const {
   const double window = levels_.front().window_px2 + variance_px2;
-  std::size_t upper = 1;
-  while (upper + 1 < levels_.size() && levels_[upper].window_px2 < window) ++upper;
-  const Level& below = levels_[upper - 1];
-  const float low = readPlane(below.variance, width_, height_, pixel);
-  const double share = (window - below.window_px2) / (levels_[upper].window_px2 - below.window_px2);
-  if (share < 1e-3) return low;
-  const float high = readPlane(levels_[upper].variance, width_, height_, pixel);
-  return std::max(0.0F, low + static_cast<float>(share) * (high - low));
+  float variance = readPlane(levels_.front().variance, width_, height_, pixel);
+  for (std::size_t i = 1; i < levels_.size() && levels_[i - 1].window_px2 < window; ++i) {
+    const Level& below = levels_[i - 1];
+    const double share =
+        std::min(1.0, (window - below.window_px2) / (levels_[i].window_px2 - below.window_px2));
+    if (share < 1e-3) break;
+    const float wider = readPlane(levels_[i].variance, width_, height_, pixel);
+    // A larger error is never the surer one, even where a wider window dilutes a small hot spot.
+    variance = std::max(variance, variance + static_cast<float>(share) * (wider - variance));
+  }
+  return variance;
 }
 
 ThermalView::ThermalView(ThermalFrame thermal_frame, const Pose& camera_in_world, const ThermalCamera& camera)

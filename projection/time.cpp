@@ -11,8 +11,8 @@ namespace thermovox {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-/// 64-bit nanoseconds end at 9.22e18; the rest is room for offsets.
-constexpr std::int64_t kLargestNanoseconds = 9'200'000'000'000'000'000;
+/// Half of the 64 bits, a date in 2115: the other half is room to add offsets, limits and delays.
+constexpr std::int64_t kLargestNanoseconds = 4'600'000'000'000'000'000;
 
 bool isDigits(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });

@@ -25,13 +25,15 @@ struct DroppedReturns {
   std::size_t too_near = 0;   ///< under range_min
   std::size_t too_far = 0;    ///< over range_max
   std::size_t too_weak = 0;   ///< under min_intensity
+  std::size_t bad_time = 0;   ///< a time of its own that is not finite or far from its sweep's
 
-  [[nodiscard]] std::size_t total() const { return no_return + too_near + too_far + too_weak; }
+  [[nodiscard]] std::size_t total() const { return no_return + too_near + too_far + too_weak + bad_time; }
   DroppedReturns& operator+=(const DroppedReturns& other) {
     no_return += other.no_return;
     too_near += other.too_near;
     too_far += other.too_far;
     too_weak += other.too_weak;
+    bad_time += other.bad_time;
     return *this;
   }
 };

@@ -7,7 +7,8 @@
 namespace thermovox {
 namespace {
 
-constexpr double kLongestSweep = 3600.0;  // seconds; a larger offset is a damaged field, not a time
+/// Seconds from a sweep's stamp to its points: a larger offset is a damaged field, not a time.
+constexpr double kLongestSweep = 10.0;
 
 }  // namespace
 
@@ -16,7 +17,7 @@ Reading readingFromCloud(Time stamp, std::span<const CloudPoint> points, const L
   reading.returns.reserve(points.size());
   for (const CloudPoint& point : points) {
     if (!(std::abs(point.time) <= kLongestSweep)) {
-      ++reading.dropped.no_return;
+      ++reading.dropped.bad_time;
       continue;
     }
     const Time taken = stamp + durationFromSeconds(point.time);

@@ -15,7 +15,7 @@ struct CloudPoint {
 };
 
 /// One cloud of a 3D laser (MultiSense and kin); each point keeps its own time. A point whose time is not
-/// finite is no return.
+/// finite or more than 10 s off the stamp is dropped as bad_time.
 [[nodiscard]] Reading readingFromCloud(Time stamp, std::span<const CloudPoint> points, const Laser& laser);
 
 }  // namespace thermovox

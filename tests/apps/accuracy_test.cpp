@@ -102,10 +102,10 @@ std::vector<ColouredReturn> mapPoints(const fs::path& mission) {
   OpenedMission opened = openMission(mission);
   ThermalMap map(ThermalMap::Options{});
   std::vector<ColouredReturn> points;
-  (void)mapMission(opened.mission, *opened.readings, opened.frames.get(), map, {},
-                   [&points](std::span<const ColouredReturn> reading) {
+  (void)mapMission({opened.mission, *opened.readings, opened.frames.get()}, map, {},
+                   {.points = [&points](std::span<const ColouredReturn> reading) {
                      points.insert(points.end(), reading.begin(), reading.end());
-                   });
+                   }});
   return points;
 }
 

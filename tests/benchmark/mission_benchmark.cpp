@@ -44,7 +44,7 @@ void mapWholeMission(benchmark::State& state, Carving carving) {
     OpenedMission opened = openMission(missionFolder());
     ThermalMap map({.resolution = kResolution});
     const MissionReport report =
-        mapMission(opened.mission, *opened.readings, opened.frames.get(), map, {.carving = carving});
+        mapMission({opened.mission, *opened.readings, opened.frames.get()}, map, {.carving = carving});
     points += report.points;
     sensor_seconds += toSeconds(*report.last_stamp - *report.first_stamp);
     benchmark::DoNotOptimize(map.blockCount());

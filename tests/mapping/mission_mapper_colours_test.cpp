@@ -50,7 +50,7 @@ TEST(MissionMapper, AFrameWithoutAPoseIsCountedAndColoursNothing) {
   EXPECT_EQ(result.report.frames, 3U);
   EXPECT_EQ(result.report.frames_without_pose, 2U);
   EXPECT_EQ(result.report.coloured, 1U);
-  EXPECT_EQ(result.report.uncoloured, (std::map<std::string, std::size_t>{{"no_frame", 1}}));
+  EXPECT_EQ(result.report.uncoloured, (std::map<std::string, std::size_t>{{"no_pose_for_frame", 1}}));
 }
 
 TEST(MissionMapper, TheCameraStandsWhereItWasWhenTheFrameWasTaken) {

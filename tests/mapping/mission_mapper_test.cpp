@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -80,7 +81,7 @@ TEST(MissionMapper, ARigWithoutThermalCameraMapsGeometryAndRefusesFrames) {
   EXPECT_EQ(result.report.uncoloured, (std::map<std::string, std::size_t>{{"no_camera", 5}}));
   EXPECT_GT(result.map.surfaceCount(), 0U);
   ThermalMap map{ThermalMap::Options{}};
-  MissionMapper mapper(mission, map, Duration::zero(), {});
+  MissionMapper mapper(mission, map, {});
   EXPECT_THROW(mapper.add(frameAt(11.0, 20.0)), ConfigError);
 }
 
@@ -101,7 +102,7 @@ Stream streamWithEqualStamps() {
 Result feedShuffled(const Mission& mission, const Stream& stream, unsigned seed) {
   std::mt19937 rng(seed);
   Result result;
-  MissionMapper mapper(mission, result.map, durationFromSeconds(kPeriod), {},
+  MissionMapper mapper(mission, result.map, {.frame_limit = kFrameLimit},
                        [&result](std::span<const ColouredReturn> reading) {
                          result.points.insert(result.points.end(), reading.begin(), reading.end());
                        });
@@ -169,9 +170,9 @@ TEST(MissionMapper, AReadingWaitsExactlyLookaheadAndFrameLimit) {
                                        .lookahead = durationFromSeconds(0.3)};
   ThermalMap map{ThermalMap::Options{}};
   std::vector<Time> mapped;
-  MissionMapper mapper(
-      mission, map, durationFromSeconds(kPeriod), options,
-      [&mapped](std::span<const ColouredReturn> reading) { mapped.push_back(reading.back().placed.stamp); });
+  MissionMapper mapper(mission, map, options, [&mapped](std::span<const ColouredReturn> reading) {
+    mapped.push_back(reading.back().placed.stamp);
+  });
   std::vector<Time> added;
   for (int i = 0; i < 900; ++i) {
     const double stamp = 10.5 + 0.01 * i;
@@ -189,11 +190,41 @@ TEST(MissionMapper, AReadingWaitsExactlyLookaheadAndFrameLimit) {
   EXPECT_EQ(mapped, added);
 }
 
+TEST(MissionMapper, ForgetsFramesThatNoReadingIsNear) {
+  // A camera that records on while the laser pauses must not fill the memory.
+  const Mission mission = missionOf(poses(0.0, 0.0));
+  ThermalMap map{ThermalMap::Options{}};
+  MissionMapper mapper(mission, map, {.frame_limit = kFrameLimit});
+  mapper.add(readingAt(10.5));
+  std::vector<std::weak_ptr<const ThermalImage>> images;
+  for (int i = 0; i < 40; ++i) {
+    ThermalFrame frame = frameAt(11.0 + kPeriod * i, 20.0);
+    images.push_back(frame.image);
+    mapper.add(std::move(frame));
+  }
+  const auto alive =
+      std::count_if(images.begin(), images.end(), [](const auto& image) { return !image.expired(); });
+  EXPECT_LE(static_cast<double>(alive), 2.0 + 0.5 / kPeriod) << "those within the lookahead";
+  EXPECT_EQ(mapper.finish().points, 1U);
+}
+
+TEST(MissionMapper, TakesRepeatedSamplesOfOnePixelForOne) {
+  // Fifty returns in one frame's one pixel share its noise: the cell must not claim to have averaged it away.
+  const Mission mission = missionOf(poses(0.0, 0.0));
+  std::vector<Reading> readings;
+  for (int i = 0; i < 50; ++i) readings.push_back(readingAt(11.0 + 0.001 * i));
+  const Result result = mapAll(mission, readings, {frameAt(11.0, 40.0)});
+  const SurfaceCell* cell = result.map.surface(result.map.keyOf({kWall, 0.0, 1.0}));
+  ASSERT_NE(cell, nullptr);
+  EXPECT_EQ(cell->observations, 50U);
+  EXPECT_GT(cell->sigmaOfMean(), 0.7 * result.points.front().colour->sigma);
+}
+
 TEST(MissionMapper, RefusesOptionsThatMakeNoSense) {
   const Mission mission = missionOf(poses(0.0, 0.0));
   ThermalMap map{ThermalMap::Options{}};
   const auto refused = [&](const MissionMapper::Options& options) {
-    return messageOf<ConfigError>([&] { MissionMapper mapper(mission, map, Duration::zero(), options); });
+    return messageOf<ConfigError>([&] { MissionMapper mapper(mission, map, options); });
   };
   EXPECT_THAT(refused({.frame_limit = Duration(-1)}), testing::HasSubstr("frame_limit"));
   EXPECT_THAT(refused({.lookahead = Duration(-1)}), testing::HasSubstr("lookahead"));

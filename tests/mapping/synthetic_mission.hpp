@@ -15,7 +15,9 @@
 namespace thermovox::test {
 
 inline constexpr double kPeriod = 0.2;  // seconds from frame to frame
-inline constexpr double kWall = 5.0;    // metres; a wall across x, and the camera looks along x
+/// What mapMission takes for that period.
+inline const Duration kFrameLimit = durationFromSeconds(kPeriod / 2 + 0.05);
+inline constexpr double kWall = 5.0;  // metres; a wall across x, and the camera looks along x
 
 [[nodiscard]] inline Time at(double seconds) {
   return Time(durationFromSeconds(seconds));
@@ -108,10 +110,11 @@ struct Result {
   Result result;
   Readings reading_source(std::move(readings));
   Frames frame_source(std::move(frames));
-  result.report = mapMission(mission, reading_source, mission.rig.thermal_camera ? &frame_source : nullptr,
-                             result.map, options, [&result](std::span<const ColouredReturn> reading) {
+  FrameSource* frame_stream = mission.rig.thermal_camera ? &frame_source : nullptr;
+  result.report = mapMission({mission, reading_source, frame_stream}, result.map, options,
+                             {.points = [&result](std::span<const ColouredReturn> reading) {
                                result.points.insert(result.points.end(), reading.begin(), reading.end());
-                             });
+                             }});
   return result;
 }
 

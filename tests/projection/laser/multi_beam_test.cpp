@@ -47,13 +47,13 @@ TEST(MultiBeam, DropsByReason) {
   EXPECT_EQ(reading.dropped.too_weak, 1U);
 }
 
-TEST(MultiBeam, TakesATimeThatCannotBeForNoReturn) {
-  for (const double time :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1.7e9, -1e300}) {
+TEST(MultiBeam, DropsATimeThatCannotBe) {
+  for (const double time : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                            1.7e9, -1e300, 11.0, -11.0}) {
     const Reading reading =
         readingFromCloud(kStamp, std::vector<CloudPoint>{{{1, 2, 3}, 20.0F, time}}, cloudLaser());
     EXPECT_TRUE(reading.returns.empty()) << time;
-    EXPECT_EQ(reading.dropped.no_return, 1U) << time;
+    EXPECT_EQ(reading.dropped.bad_time, 1U) << time;
   }
 }
 

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "projection/colouring.hpp"
+#include "projection/depth_sectors.hpp"
+#include "projection/rig.hpp"
+
+namespace thermovox {
+
+/// Why a return has no temperature.
+enum class Uncoloured { no_camera, no_frame, no_pose_for_frame, outside_image, hidden, unknown_pixel };
+
+/// The temperature that a frame gave a return.
+struct FrameColour {
+  Colour colour;
+  /// 1 for the first return that was coloured by this pixel of this frame, 2 for the second, ... All of them
+  /// share the pixel's noise.
+  int sample = 1;
+};
+
+/// The thermal frames around the returns at hand. A frame comes in, waits until enough laser data after it is
+/// known, is then closed with the depths of what may hide things from it, colours returns, and is dropped.
+/// One that has no return near it costs nothing but its image while it waits.
+class FrameWindow {
+ public:
+  struct Options {
+    Duration limit = Duration::zero();      ///< farthest in time from a return that a frame colours it
+    Duration lookahead = Duration::zero();  ///< from a frame's stamp to its closing; at least the limit
+    DepthSectors::Options visibility;
+  };
+  /// The camera must outlive the window.
+  FrameWindow(const ThermalCamera& camera, const Options& options);
+  ~FrameWindow();
+
+  /// Frames come in the order of their stamps; without a pose (of the camera in the world, at the frame's own
+  /// time) a frame colours nothing, and the returns near it say why.
+  void add(ThermalFrame frame, const std::optional<Pose>& T_world_camera);
+
+  /// When the oldest open frame is to be closed; nullopt when none is open.
+  [[nodiscard]] std::optional<Time> nextDue() const;
+  /// Its stamp. Precondition, here and below: nextDue().
+  [[nodiscard]] Time nextStamp() const;
+  /// Closes it. `fill` is called to put surface points into its depths; null when no return can ask for it.
+  void closeNext(const std::function<void(DepthSectors&)>& fill);
+
+  /// The temperature of a return from the closed frame nearest in time that sees it. A return that the
+  /// nearest frame does not see may take it from another within the limit; if none sees it, the nearest says
+  /// why.
+  [[nodiscard]] std::variant<FrameColour, Uncoloured> colour(const PlacedReturn& placed);
+
+  /// Forgets closed frames that no return from `earliest` on can ask for.
+  void dropBefore(Time earliest);
+
+ private:
+  struct Frame;
+  [[nodiscard]] std::variant<FrameColour, Uncoloured> colourBy(Frame& frame,
+                                                               const PlacedReturn& placed) const;
+
+  const ThermalCamera& camera_;
+  Options options_;
+  std::deque<std::unique_ptr<Frame>> frames_;  ///< ascending; the closed ones first
+  std::size_t closed_ = 0;
+  std::vector<Frame*> candidates_;  ///< of the return at hand
+};
+
+}  // namespace thermovox
