@@ -16,7 +16,7 @@ struct CellKey {
   friend auto operator<=>(const CellKey&, const CellKey&) = default;
 };
 
-/// The largest |key| a map holds; further out a coordinate does not fit (1638 km at 0.05 m).
+/// The largest |key| a map holds; further out a coordinate does not fit (1678 km at 0.05 m).
 inline constexpr std::int32_t kMaxCellKey = 1 << 25;
 
 /// OctoMap's keys have 16 bits: its maps end this many cells from the origin.

@@ -10,6 +10,7 @@ namespace thermovox {
 namespace {
 
 constexpr double kLargestQuanta = 127.0;
+constexpr double kRounding = 1e-9;  // quanta; a threshold of exactly so many steps is not rounded up
 
 double logOddsOf(double probability) {
   return std::log(probability / (1.0 - probability));
@@ -75,7 +76,9 @@ OccupancyModel::OccupancyModel(const Options& options) {
   miss_ = -steps.miss;
   min_ = static_cast<int>(std::lround(lowest / quantum_));
   max_ = static_cast<int>(std::lround(highest / quantum_));
-  occupied_ = static_cast<int>(std::lround(logOddsOf(options.occupied) / quantum_));
+  // Up, so that no cell is occupied here and free to OctoMap, which compares the log-odds themselves.
+  occupied_ = static_cast<int>(std::ceil(logOddsOf(options.occupied) / quantum_ - kRounding));
+  require(occupied_ <= max_, "occupied", options.occupied, "at least one step of log-odds below clamp_max");
 }
 
 LogOdds addedLogOdds(LogOdds a, LogOdds b) {

@@ -54,6 +54,8 @@ class OccupancyModel {
   [[nodiscard]] double naturalLogOdds(LogOdds log_odds) const {
     return quantum_ * (log_odds < min_ ? min_ : (log_odds > max_ ? max_ : log_odds));
   }
+  /// Whether the log-odds reach Options::occupied, which is rounded up to a whole quantum: what is occupied
+  /// here is so in OctoMap's trees and files, too.
   [[nodiscard]] bool isOccupied(LogOdds log_odds) const {
     return log_odds != kUnknown && log_odds >= occupied_;
   }

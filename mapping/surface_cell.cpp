@@ -16,12 +16,15 @@ constexpr double kTemperatureSteps = 65536.0;  // a degree
 constexpr double kWeightSteps = 262144.0;      // 1 / C^2
 constexpr int kSquareShift = 24;
 constexpr double kSquareSteps = kTemperatureSteps * kTemperatureSteps / (1 << kSquareShift);
-constexpr std::uint32_t kGuardAfter = 4;  // observations that pass unguarded
-constexpr double kGuardSigmas = 2.5;      // loses 1.6 % of efficiency on clean Gaussian data
-constexpr double kGuardFloor = 0.1;       // C; two frames of a camera agree no better
-constexpr double kRangeSteps = 100.0;     // a metre
-constexpr double kIncidenceSteps = 1e4;   // a radian
-constexpr double kUnknownCosine = 0.5;    // an unknown incidence counts as 60 degrees
+constexpr std::uint32_t kGuardAfter = 4;    // observations that pass unguarded
+constexpr double kGuardSigmas = 2.5;        // loses 1.6 % of efficiency on clean Gaussian data
+constexpr double kGuardFloor = 0.1;         // C; two frames of a camera agree no better
+constexpr double kExplainedSpread = 2.0;    // as a multiple of what the sigmas promise
+constexpr double kTolerance = 1e-4;         // C; more than the fixed point and 32-bit extremes round by
+constexpr double kRangeSteps = 100.0;       // a metre
+constexpr double kIncidenceSteps = 1e4;     // a radian
+constexpr double kMostIncidence = 15708.0;  // a right angle
+constexpr double kUnknownCosine = 0.5;      // an unknown incidence counts as 60 degrees
 
 std::uint16_t rangeCode(float range) {
   return static_cast<std::uint16_t>(range >= 0.0F ? std::min(std::round(range * kRangeSteps), 65535.0)
@@ -30,7 +33,7 @@ std::uint16_t rangeCode(float range) {
 
 std::uint16_t incidenceCode(float incidence) {
   if (!std::isfinite(incidence)) return SurfaceCell::kUnknownIncidence;
-  return static_cast<std::uint16_t>(std::clamp(std::round(incidence * kIncidenceSteps), 0.0, 65534.0));
+  return static_cast<std::uint16_t>(std::clamp(std::round(incidence * kIncidenceSteps), 0.0, kMostIncidence));
 }
 
 /// Orders views, the better first: most pixels on the cell, cos(incidence) / range^2; ties by the codes.
@@ -96,23 +99,55 @@ void SurfaceCell::merge(const SurfaceCell& other) {
     best_range_cm = other.best_range_cm;
     best_incidence = other.best_incidence;
   }
-  observations += other.observations;
-  weight_sum += other.weight_sum;
-  weighted_sum += other.weighted_sum.value();
-  weighted_square_sum += other.weighted_square_sum.value();
+  addSums(other);
+}
+
+void SurfaceCell::addSums(const SurfaceCell& other) {
+  if (other.observations <= std::numeric_limits<std::uint32_t>::max() - observations) {
+    observations += other.observations;
+    weight_sum += other.weight_sum;
+    weighted_sum += other.weighted_sum.value();
+    weighted_square_sum += other.weighted_square_sum.value();
+    return;
+  }
+  const auto order = [](const SurfaceCell& cell) {  // the busier last, ties by the sums
+    return std::make_tuple(cell.observations, cell.weight_sum, cell.weighted_sum.value(),
+                           cell.weighted_square_sum.value());
+  };
+  if (order(other) <= order(*this)) return;
+  observations = other.observations;
+  weight_sum = other.weight_sum;
+  weighted_sum = other.weighted_sum;
+  weighted_square_sum = other.weighted_square_sum;
 }
 
 bool SurfaceCell::isPlausible() const {
+  if (returns == 0 || returns > kMaxReturns) return false;
   for (const std::uint32_t sum : offset_sum) {
     if (sum > 255ULL * returns) return false;
   }
-  if (returns > kMaxReturns) return false;
-  if (observations == 0) return weight_sum == 0 && weighted_sum == Sum96{} && weighted_square_sum == Sum96{};
+  if (observations > 0) return hasPlausibleTemperature();
+  SurfaceCell without;
+  without.returns = returns;
+  without.offset_sum = offset_sum;
+  return *this == without;
+}
+
+bool SurfaceCell::hasPlausibleTemperature() const {
+  constexpr auto most_weight = static_cast<std::uint64_t>(kWeightSteps / (kMinSigma * kMinSigma) + 0.5);
+  if (weight_sum < observations || weight_sum > observations * most_weight) return false;
+  if (best_incidence > kMostIncidence && best_incidence != kUnknownIncidence) return false;
   // Written so that NaN is refused too.
-  const bool in_range =
-      min_celsius >= kMinCelsius - 0.01 && max_celsius <= kMaxCelsius && min_celsius <= max_celsius;
-  if (!in_range || first_ns > last_ns || weight_sum < observations) return false;
-  return mean() >= min_celsius - 0.01 && mean() <= max_celsius + 0.01;
+  const bool in_range = min_celsius >= static_cast<float>(kMinCelsius) && max_celsius <= kMaxCelsius;
+  if (!in_range || !(min_celsius <= max_celsius) || first_ns > last_ns) return false;
+  if (observations == 1 && (min_celsius != max_celsius || first_ns != last_ns)) return false;
+  if (!(mean() >= min_celsius - kTolerance && mean() <= max_celsius + kTolerance)) return false;
+  // Each square may have lost almost one unit, and doubles lose the last bits of numbers up to 10^7.
+  const double lost = static_cast<double>(observations) / static_cast<double>(weight_sum) / kSquareSteps;
+  const double mean_from_zero = mean() - kZeroCelsius;
+  const double max_from_zero = max_celsius - kZeroCelsius + kTolerance;
+  return meanSquare() >= mean_from_zero * mean_from_zero - lost - kTolerance &&
+         meanSquare() <= max_from_zero * max_from_zero;
 }
 
 Eigen::Vector3d SurfaceCell::meanOffset() const {
@@ -126,14 +161,22 @@ double SurfaceCell::mean() const {
 }
 
 double SurfaceCell::sigmaOfMean() const {
-  return std::sqrt(kWeightSteps / static_cast<double>(weight_sum));
+  const double own = kWeightSteps / static_cast<double>(weight_sum);
+  const double scatter = spread() * spread();
+  const double number = observations;
+  const double unexplained = std::max(scatter - kExplainedSpread * kExplainedSpread * number * own, 0.0);
+  const double apart = static_cast<double>(max_celsius) - min_celsius;
+  const double off = 0.5 * (apart - std::sqrt(std::max(apart * apart - 4.0 * unexplained, 0.0)));
+  return std::sqrt(std::max(own, scatter / number) + off * off);
+}
+
+double SurfaceCell::meanSquare() const {
+  return static_cast<double>(weighted_square_sum.value()) / static_cast<double>(weight_sum) / kSquareSteps;
 }
 
 double SurfaceCell::spread() const {
   const double mean_from_zero = mean() - kZeroCelsius;
-  const double mean_square =
-      static_cast<double>(weighted_square_sum.value()) / static_cast<double>(weight_sum) / kSquareSteps;
-  return std::sqrt(std::max(mean_square - mean_from_zero * mean_from_zero, 0.0));
+  return std::sqrt(std::max(meanSquare() - mean_from_zero * mean_from_zero, 0.0));
 }
 
 SurfaceCell::View SurfaceCell::bestView() const {

@@ -66,19 +66,32 @@ struct SurfaceCell {
   /// its sigma is not finite.
   void addTemperature(const TemperatureObservation& observation, Time stamp);
 
-  /// Adds another mission's statistics of the same cell: exact, in any order and grouping (the mean position
-  /// up to kMaxReturns).
+  /// Adds another mission's statistics of the same cell: exact, in any order and grouping, the mean position
+  /// up to kMaxReturns returns and the mean temperature up to 2^32 - 1 observations. Where the two together
+  /// hold more, nothing wraps: the sums of the one that counted more stand for both.
   void merge(const SurfaceCell& other);
 
-  /// Whether the fields fit together, as they do in every cell that was built by the functions above: for
-  /// cells that come from a file.
+  /// Whether the fields fit together, as they do in every cell that a return hit and that was built by the
+  /// functions above: the counts and codes are possible, no sum is more than its count can give, the mean
+  /// lies between the extremes, and no moment contradicts another. For cells that come from a file.
   [[nodiscard]] bool isPlausible() const;
 
   /// Mean place of the returns within the cell, in edges. Precondition: returns > 0.
   [[nodiscard]] Eigen::Vector3d meanOffset() const;
   /// Weighted mean, C. Precondition for this and all below: observations > 0.
   [[nodiscard]] double mean() const;
-  /// Standard deviation of the mean as the observations' own sigmas have it, C; the camera's bias apart.
+  /// Standard deviation of the mean, C; the camera's common bias apart. With W the sum of the weights
+  /// 1 / sigma^2, n the observations and s their spread():
+  ///
+  ///   sqrt(max(1 / W, s^2 / n) + b^2),  b = (D - sqrt(D^2 - 4 e^2)) / 2,  D = max - min,
+  ///   e^2 = max(s^2 - 4 n / W, 0).
+  ///
+  /// 1 / W is what the observations' own sigmas promise; where they scatter more than that, s^2 / n widens it
+  /// by their Birge ratio, as the Particle Data Group does (Review of Particle Physics, Introduction; there
+  /// with n - 1). Both take the errors for independent. Once the spread is more than twice what the sigmas
+  /// explain (e > 0), that is no longer to be believed: something else stood there for a while, or the cell
+  /// holds two surfaces, and more observations do not bring the mean nearer to either. b is how far a mean
+  /// lies from the larger of two populations that are D apart and spread it by e.
   [[nodiscard]] double sigmaOfMean() const;
   /// Weighted standard deviation of the observations about their mean, C.
   [[nodiscard]] double spread() const;
@@ -87,6 +100,13 @@ struct SurfaceCell {
   [[nodiscard]] View bestView() const;
 
   friend bool operator==(const SurfaceCell&, const SurfaceCell&) = default;
+
+ private:
+  /// Observations, weights and moments; of two too many for one cell the busier one's.
+  void addSums(const SurfaceCell& other);
+  [[nodiscard]] bool hasPlausibleTemperature() const;
+  /// Weighted mean of the squares, counted from -274 C.
+  [[nodiscard]] double meanSquare() const;
 };
 static_assert(sizeof(SurfaceCell) == 80);
 

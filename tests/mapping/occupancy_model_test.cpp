@@ -58,6 +58,20 @@ TEST(OccupancyModel, TellsUnknownFromFree) {
   EXPECT_FALSE(model.isOccupied(-1));
 }
 
+TEST(OccupancyModel, TakesForOccupiedOnlyWhatReachesTheThreshold) {
+  for (int i = 15; i <= 95; ++i) {
+    const double occupied = 0.01 * i;
+    const OccupancyModel model({.occupied = occupied});
+    const double threshold = std::log(occupied / (1.0 - occupied));
+    for (int quanta = model.clampMin(); quanta <= model.clampMax(); ++quanta) {
+      const auto log_odds = static_cast<LogOdds>(quanta);
+      EXPECT_EQ(model.isOccupied(log_odds), model.naturalLogOdds(log_odds) >= threshold - 1e-9)
+          << quanta << " quanta, threshold " << occupied;
+    }
+  }
+  EXPECT_TRUE(OccupancyModel({.occupied = 0.7}).isOccupied(23));  // exactly one hit, so one hit will do
+}
+
 TEST(OccupancyModel, AddsMissionsWithoutTheUnknown) {
   EXPECT_EQ(addedLogOdds(kUnknown, kUnknown), kUnknown);
   EXPECT_EQ(addedLogOdds(kUnknown, -11), -11);
@@ -76,6 +90,7 @@ TEST(OccupancyModel, RefusesOptionsByName) {
   EXPECT_THAT(message({.clamp_min = 0.0}), HasSubstr("occupancy.clamp_min is 0"));
   EXPECT_THAT(message({.clamp_max = std::nan("")}), HasSubstr("occupancy.clamp_max is nan"));
   EXPECT_THAT(message({.occupied = 0.99}), HasSubstr("occupancy.occupied is 0.99"));
+  EXPECT_THAT(message({.occupied = 0.9709}), HasSubstr("one step of log-odds below clamp_max"));
   EXPECT_THAT(message({.prob_hit = 0.55, .prob_miss = 0.4999}), HasSubstr("too far apart"));
 }
 

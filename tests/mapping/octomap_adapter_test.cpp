@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "projection/error.hpp"
 #include "tests/support/recordings.hpp"
@@ -37,6 +40,61 @@ TEST(OctomapAdapter, RoundTripsOtherSensorModels) {
                   Carving::octomap);
   }
   expectSameOccupancy(fromOcTree(*toOcTree(map)), map);
+}
+
+/// Whether the map and a tree take the same cells of one block for occupied.
+void expectSameStates(const ThermalMap& map, const octomap::OcTree& tree) {
+  for (int index = 0; index < kBlockCells; ++index) {
+    const CellKey cell = cellAt({0, 0, 0}, index);
+    if (map.occupancy(cell) == Occupancy::unknown) continue;
+    const Eigen::Vector3d p = map.centerOf(cell);
+    EXPECT_EQ(tree.isNodeOccupied(tree.search(p.x(), p.y(), p.z())),
+              map.occupancy(cell) == Occupancy::occupied)
+        << *map.logOdds(cell) << ", threshold " << map.options().occupancy.occupied;
+  }
+}
+
+TEST(OctomapAdapter, AgreesWithItsTreesOnWhatIsOccupied) {
+  for (int i = 15; i <= 95; ++i) {
+    ThermalMap map({.resolution = 0.1, .occupancy = {.occupied = i / 100.0}});
+    Block block;
+    const OccupancyModel& model = map.occupancyModel();
+    for (int quanta = model.clampMin(); quanta <= model.clampMax(); ++quanta) {
+      block.log_odds[static_cast<std::size_t>(quanta - model.clampMin())] = static_cast<LogOdds>(quanta);
+    }
+    map.setBlock({0, 0, 0}, block);
+    const auto tree = toOcTree(map);
+    expectSameStates(map, *tree);
+    const ThermalMap again = fromOcTree(*tree);
+    expectSameOccupancy(again, map);
+    expectSameStates(again, *tree);
+  }
+}
+
+TEST(OctomapAdapter, ClampsWhatOtherTreesHoldAndNeverMakesItUnknown) {
+  octomap::OcTree tree(0.1);
+  const std::vector<std::pair<float, int>> leaves{{1e30F, 95},     {-1e30F, -54}, {5.0F, 95}, {-1207.0F, -54},
+                                                  {-1207.1F, -54}, {0.0F, 0},     {0.11F, 3}};
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    tree.setNodeValue(0.2 * static_cast<double>(i) + 0.05, 0.05, 0.05, 0.0F, true)
+        ->setLogOdds(leaves[i].first);
+  }
+  const ThermalMap map = fromOcTree(tree);
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const CellKey cell{2 * static_cast<std::int32_t>(i), 0, 0};
+    EXPECT_EQ(map.block(blockOf(cell))->log_odds[static_cast<std::size_t>(indexInBlock(cell))],
+              leaves[i].second)
+        << leaves[i].first;
+  }
+}
+
+TEST(OctomapAdapter, RefusesLogOddsThatAreNotFinite) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                          -std::numeric_limits<float>::infinity()}) {
+    octomap::OcTree tree(0.1);
+    tree.setNodeValue(0.05, 0.05, 0.05, 1.0F, true)->setLogOdds(bad);
+    EXPECT_NE(test::messageOf<DataError>([&] { (void)fromOcTree(tree); }).find("finite"), std::string::npos);
+  }
 }
 
 TEST(OctomapAdapter, PrunesAndExpandsAgain) {

@@ -73,8 +73,9 @@ TEST(SurfaceCell, AgreesWithWeightedStatisticsInDoubles) {
   }
   const double mean = sum / weights;
   EXPECT_NEAR(cell.mean(), mean, 1e-4);
-  EXPECT_NEAR(cell.sigmaOfMean(), std::sqrt(1.0 / weights), 1e-6);
-  EXPECT_NEAR(cell.spread(), std::sqrt(squares / weights - mean * mean), 1e-4);
+  const double spread = std::sqrt(squares / weights - mean * mean);
+  EXPECT_NEAR(cell.sigmaOfMean(), std::max(std::sqrt(1.0 / weights), spread / 2.0), 1e-4);
+  EXPECT_NEAR(cell.spread(), spread, 1e-4);
 }
 
 TEST(SurfaceCell, AveragesNoiseAwayWithoutBias) {
@@ -96,6 +97,49 @@ TEST(SurfaceCell, IsNotMovedByAPasserBy) {
   EXPECT_EQ(cell.observations, 55U);
 }
 
+/// 60 observations of a surface of 20 C and 20 of something of 35 C, in the order of `warm`.
+template <typename Warm>
+SurfaceCell disturbed(double sigma, Warm&& warm) {
+  SurfaceCell cell;
+  for (int i = 0; i < 80; ++i) cell.addTemperature(seen(warm(i) ? 35.0 : 20.0, sigma), kNoon);
+  return cell;
+}
+
+TEST(SurfaceCell, SaysHowFarOutliersMayHaveMovedIt) {
+  for (const double sigma : {0.05, 0.1, 0.3}) {
+    for (const SurfaceCell& cell :
+         {disturbed(sigma, [](int i) { return i >= 60; }), disturbed(sigma, [](int i) { return i < 20; }),
+          disturbed(sigma, [](int i) { return i % 4 == 3; })}) {
+      const double moved = std::abs(cell.mean() - 20.0);
+      SCOPED_TRACE(testing::Message() << "sigma " << sigma << " C, moved by " << moved << " C");
+      EXPECT_GT(moved, 1.5);
+      EXPECT_GE(cell.sigmaOfMean(), moved);
+      EXPECT_LE(cell.sigmaOfMean(), 1.2 * moved);  // and claims no wider a bar than that
+    }
+  }
+}
+
+TEST(SurfaceCell, WidensItsSigmaByTheBirgeRatioOfItsObservations) {
+  SurfaceCell cell;  // scattered by 0.15 C where 0.1 C is promised
+  for (int i = 0; i < 100; ++i) cell.addTemperature(seen(i % 2 == 0 ? 40.15 : 39.85, 0.1), kNoon);
+  EXPECT_NEAR(cell.spread(), 0.15, 1e-3);
+  EXPECT_NEAR(cell.sigmaOfMean(), 0.15 / 10.0, 1e-4);
+}
+
+TEST(SurfaceCell, KeepsTheSigmaOfObservationsThatAgree) {
+  std::mt19937 rng(6);
+  std::normal_distribution<double> noise(0.0, 0.3);
+  for (const int count : {2, 5, 20, 100, 1000}) {
+    int wide = 0;
+    for (int round = 0; round < 200; ++round) {
+      SurfaceCell cell;
+      for (int i = 0; i < count; ++i) cell.addTemperature(seen(35.0 + noise(rng), 0.3), kNoon);
+      wide += cell.sigmaOfMean() > 2.0 * 0.3 / std::sqrt(count);
+    }
+    EXPECT_LE(wide, 4) << count << " observations";
+  }
+}
+
 TEST(SurfaceCell, RecoversWhenThePasserByCameFirst) {
   SurfaceCell cell;
   for (int i = 0; i < 4; ++i) cell.addTemperature(seen(35.0, 0.1), kNoon);
@@ -110,10 +154,29 @@ TEST(SurfaceCell, HoldsTheExtremesOfItsRangeOverManyMerges) {
   EXPECT_EQ(cell.observations, 1U << 31);
   EXPECT_NEAR(cell.mean(), 3000.0, 1e-6);
   EXPECT_NEAR(cell.spread(), 0.0, 1e-3);
+  const SurfaceCell half = cell;
+  for (int i = 0; i < 3; ++i) cell.merge(half);  // 2^32 observations are too many for one cell
+  EXPECT_EQ(cell.observations, 1U << 31);
+  EXPECT_NEAR(cell.mean(), 3000.0, 1e-6);
+  cell.addReturn({0.5, 0.5, 0.5});
+  EXPECT_TRUE(cell.isPlausible());
   SurfaceCell cold;
   cold.addTemperature(seen(-500.0, 1000.0), kNoon);
   EXPECT_NEAR(cold.mean(), -273.15, 1e-4);
   EXPECT_NEAR(cold.sigmaOfMean(), 100.0, 1.5);  // 26 units of weight, rounded
+}
+
+TEST(SurfaceCell, KeepsTheBusierOfTwoThatAreTooManyTogether) {
+  SurfaceCell warm, cool;
+  warm.addTemperature(seen(50.0, 0.1), kNoon);
+  cool.addTemperature(seen(10.0, 0.1), kNoon);
+  for (int i = 0; i < 31; ++i) warm.merge(SurfaceCell(warm));
+  for (int i = 0; i < 31; ++i) cool.merge(SurfaceCell(cool));
+  warm.addTemperature(seen(50.0, 0.1), kNoon);
+  EXPECT_EQ(merged(warm, cool), merged(cool, warm));
+  EXPECT_NEAR(merged(warm, cool).mean(), 50.0, 1e-6);
+  EXPECT_EQ(merged(warm, cool).observations, (1U << 31) + 1);
+  EXPECT_FLOAT_EQ(merged(warm, cool).min_celsius, 10.0F);
 }
 
 TEST(SurfaceCell, MergesInAnyOrderAndGroupingBitForBit) {
@@ -157,6 +220,22 @@ TEST(SurfaceCell, AveragesThePlacesOfItsReturns) {
   EXPECT_NEAR(cell.meanOffset().x(), 0.5, 1.0 / 256);
   EXPECT_NEAR(cell.meanOffset().y(), 0.5, 1.0 / 256);
   EXPECT_LT(cell.meanOffset().z(), 1.0);
+}
+
+TEST(SurfaceCell, IsPlausibleHoweverItWasBuilt) {
+  std::mt19937 rng(10);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 2000; ++i) {
+    SurfaceCell cell = randomCell(rng);
+    EXPECT_TRUE(cell.isPlausible());
+    // The ends of what a cell takes, and angles of surfaces that look away.
+    const double celsius = unit(rng) < 0.5 ? -300.0 : 3100.0;
+    const double sigma = unit(rng) < 0.5 ? 1e-4 : 1e3;
+    cell.addTemperature(seen(celsius, sigma, -1.0F, static_cast<float>(7.0 * unit(rng) - 1.0)), kNoon);
+    EXPECT_TRUE(cell.isPlausible()) << celsius << " C";
+    cell.merge(randomCell(rng));
+    EXPECT_TRUE(cell.isPlausible());
+  }
 }
 
 }  // namespace

@@ -124,13 +124,35 @@ std::vector<Eigen::Vector3d> floorUnder(double height, double pitch) {
 }
 
 TEST(DepthSectors, LetASlantedFloorBeSeen) {
-  // It recedes by cos(pitch) / (y cos(pitch) + sin(pitch)) metres a metre aside, 1.8 at most in these views:
-  // under the slope of 2 that the options promise to leave alone.
+  // It recedes by cos(pitch) / (y cos(pitch) + sin(pitch)) metres a metre aside: 1.8 at most in these views.
   for (const double pitch_deg : {45.0, 60.0, 80.0}) {
     for (const double height : {0.5, 1.5, 4.0}) {
       const std::vector<Eigen::Vector3d> floor = floorUnder(height, pitch_deg * M_PI / 180.0);
       EXPECT_EQ(shareHidden(sectorsOf(floor), inImage(floor)), 0.0)
           << height << " m, " << pitch_deg << " deg";
+    }
+  }
+}
+
+/// A plane 5 m ahead that recedes by `slope` metres a metre aside in the image's middle, towards `heading`,
+/// and by ever more further on; cut off where that is more than `steepest`.
+std::vector<Eigen::Vector3d> tiltedPlane(double slope, double heading, double steepest) {
+  const Eigen::Vector2d uphill(std::cos(heading), std::sin(heading));
+  std::vector<Eigen::Vector3d> plane;
+  for (const Eigen::Vector3d& ray : randomRays(1.0, 32)) {
+    const double left = 1.0 - slope * uphill.dot(ray.head<2>());
+    if (left > 0.0 && slope / left <= steepest) plane.push_back(ray * 5.0 / left);
+  }
+  return plane;
+}
+
+TEST(DepthSectors, LetTiltedPlanesBeSeenNearlyUpToTheSlopeOfTheOptions) {
+  const double steepest = 3.5;
+  ASSERT_LT(steepest, DepthSectors::Options{}.slope);
+  for (const double slope : {0.5, 1.0, 2.0, 3.0, 3.4}) {
+    for (int turn = 0; turn < 12; ++turn) {
+      const std::vector<Eigen::Vector3d> plane = tiltedPlane(slope, 2.0 * M_PI * turn / 12 + 0.1, steepest);
+      EXPECT_EQ(shareHidden(sectorsOf(plane), inImage(plane)), 0.0) << "slope " << slope << ", turn " << turn;
     }
   }
 }

@@ -22,11 +22,11 @@ using test::IsNear;
 
 constexpr Time kStamp{std::chrono::seconds(1'700'000'000)};
 
-/// A camera like the paper's Duo R: 160 x 120 pixels over 57 by 44 degrees.
+/// A camera like the paper's Duo R: 160 x 120 pixels over 57 by 44 degrees. K is our own choice.
 Intrinsics duoR() {
   Intrinsics in{.width_px = 160, .height_px = 120, .model = LensModel::pinhole};
-  in.parameters[kFx] = 80.0 / std::tan(28.5 * M_PI / 180.0);
-  in.parameters[kFy] = 60.0 / std::tan(22.0 * M_PI / 180.0);
+  in.parameters[kFx] = 147.3;
+  in.parameters[kFy] = 148.5;
   in.parameters[kCx] = 79.5;
   in.parameters[kCy] = 59.5;
   return in;
@@ -38,33 +38,33 @@ Eigen::Vector3d equation1(const Intrinsics& in, const Eigen::Vector2d& pixel, do
           (pixel.y() - in.parameters[kCy]) * d / in.parameters[kFy], d};
 }
 
+constexpr double kDecimalMm = 0.005;  // half of the last decimal that the paper gives
+
 TEST(PaperEquation1, GivesFigure4) {
   const Camera camera(duoR());
-  const Eigen::Vector3d figure4_mm(-64.19, 109.06, 710.00);
-  const auto pixel = camera.project(figure4_mm / 1000.0);
-  ASSERT_TRUE(pixel) << "a camera of this field of view sees the point of figure 4";
-  EXPECT_THAT(equation1(camera.intrinsics(), *pixel, 710.0), IsNear(figure4_mm, 1e-9));
-  const Eigen::Vector3d ray = camera.rayFromPixel(*pixel).value();
-  EXPECT_THAT(ray * 710.0, IsNear(figure4_mm, 1e-9));
-  EXPECT_THAT(camera.project(ray * 0.710).value(), IsNear(*pixel, 1e-9));
+  const Eigen::Vector2d pixel(66.18284, 82.31044);  // of figure 4's point, with this K
+  const Eigen::Vector3d p_mm = camera.rayFromPixel(pixel).value() * 710.0;
+  EXPECT_NEAR(p_mm.x(), -64.19, kDecimalMm);
+  EXPECT_NEAR(p_mm.y(), 109.06, kDecimalMm);
+  EXPECT_NEAR(p_mm.z(), 710.00, kDecimalMm);
+  EXPECT_THAT(equation1(camera.intrinsics(), pixel, 710.0), IsNear(p_mm, 1e-9));
+  EXPECT_THAT(camera.project({-0.06419, 0.10906, 0.71}).value(), IsNear(pixel, 1e-4));
 }
 
 TEST(PaperEquation1, CorrectsTable2) {
   const Camera camera(duoR());
-  const double d_mm = 4083.6;
-  const Eigen::Vector3d corrected_mm(15.20, -174.56, d_mm);
-  const Eigen::Vector2d pixel = camera.project(corrected_mm / 1000.0).value();
+  const Eigen::Vector2d pixel(80.04828, 53.15213);  // of the corrected point, with this K
   const Eigen::Vector3d ray = camera.rayFromPixel(pixel).value();
-  EXPECT_THAT(ray * d_mm, IsNear(corrected_mm, 1e-9));
-  EXPECT_THAT(ray * d_mm, IsNear(equation1(camera.intrinsics(), pixel, d_mm), 1e-9));
-  // One pixel keeps X / d and Y / d; the table's X and Y stay at 15.167 and -174.218 mm instead, which is off
-  // the pixel's ray by more than its last decimal.
-  for (const double other_mm : {500.0, 1000.0, 2041.8, 8167.2}) {
-    const Eigen::Vector3d p_mm = ray * other_mm;
-    EXPECT_NEAR(p_mm.x(), 15.20 * other_mm / d_mm, 1e-9);
-    EXPECT_NEAR(p_mm.y(), -174.56 * other_mm / d_mm, 1e-9);
-  }
-  EXPECT_GT((ray * d_mm - Eigen::Vector3d(15.167, -174.218, d_mm)).norm(), 0.3);
+  const Eigen::Vector3d p_mm = ray * 4083.6;
+  EXPECT_NEAR(p_mm.x(), 15.20, kDecimalMm);
+  EXPECT_NEAR(p_mm.y(), -174.56, kDecimalMm);
+  EXPECT_NEAR(p_mm.z(), 4083.6, kDecimalMm);
+  EXPECT_THAT(equation1(camera.intrinsics(), pixel, 4083.6), IsNear(p_mm, 1e-9));
+  // One pixel keeps X / d and Y / d: at half the distance half of both. The table's own X and Y stay
+  // at 15.167 and -174.218 mm, which is off the pixel's ray by more than its last decimal.
+  EXPECT_NEAR((ray * 2041.8).x(), 7.60, kDecimalMm);
+  EXPECT_NEAR((ray * 2041.8).y(), -87.28, kDecimalMm);
+  EXPECT_GT((p_mm - Eigen::Vector3d(15.167, -174.218, 4083.6)).norm(), 0.3);
 }
 
 TEST(PaperRadiometry, Reads44Point15DegreesFrom31730Counts) {
@@ -109,6 +109,21 @@ struct StandingRig {
                 1e-12);
   }
 };
+
+TEST(PaperEquation3, CarriesAPointFromTheLaserIntoTheCamera) {
+  // p_camera = R p_laser + t, by hand: 2 m at 30 degrees to the left are (1.73205, 1, 0) in the laser; the
+  // camera has x to the right, y down, z forward, and the laser 20 mm right of, 50 above and 10 behind it.
+  StandingRig rig;
+  rig.laser.kind = LaserKind::scan;
+  rig.laser.angle_min = M_PI / 6.0;
+  rig.laser.angle_increment = 0.1;
+  const std::vector<float> ranges{2.0F};
+  const Reading reading = readingFromScan(kStamp, ranges, rig.laser);
+  ASSERT_EQ(reading.returns.size(), 1U);
+  const auto placed = std::get<PlacedReturn>(place(reading.returns[0], rig.laser, rig.mission));
+  EXPECT_THAT(placed.p_world, IsNear(Eigen::Vector3d(-0.98, -0.05, 1.7220508), 1e-7));
+  EXPECT_THAT(placed.origin_world, IsNear(Eigen::Vector3d(0.02, -0.05, -0.01), 1e-12));
+}
 
 TEST(PaperBeam, IsAPointAtItsDistanceAlongTheLasersAxis) {
   const StandingRig rig;

@@ -46,7 +46,7 @@ class OctomapOracle {
     std::size_t cells = 0;                ///< known to OctoMap
     std::size_t only_ours = 0;            ///< known to us alone
     std::size_t other_state = 0;          ///< occupied here, free or unknown there, or the other way round
-    std::size_t other_state_clearly = 0;  ///< and OctoMap's log-odds more than a quantum off the threshold
+    std::size_t other_state_clearly = 0;  ///< and the threshold is not between the log-odds here and there
     double worst_log_odds = 0.0;          ///< largest difference
   };
   [[nodiscard]] Comparison compare() {
@@ -90,15 +90,15 @@ class OctomapOracle {
     const octomap::OcTreeKey key = leaf.getKey();
     const CellKey cell{key[0] - kOctomapReach, key[1] - kOctomapReach, key[2] - kOctomapReach};
     const double log_odds = leaf->getLogOdds();
-    const double quantum = map_.occupancyModel().quantum();
+    const double ours = map_.logOdds(cell).value_or(log_odds);
+    const double threshold = tree_.getOccupancyThresLog();
     const Occupancy state = tree_.isNodeOccupied(*leaf) ? Occupancy::occupied : Occupancy::free;
-    const bool clear = std::abs(log_odds - tree_.getOccupancyThresLog()) > quantum;
+    const bool between = std::min(ours, log_odds) <= threshold && std::max(ours, log_odds) >= threshold;
     const bool same = map_.occupancy(cell) == state;
     ++result.cells;
     result.other_state += !same;
-    result.other_state_clearly += !same && clear;
-    const double difference = std::abs(map_.logOdds(cell).value_or(log_odds) - log_odds);
-    result.worst_log_odds = std::max(result.worst_log_odds, difference);
+    result.other_state_clearly += !same && !between;
+    result.worst_log_odds = std::max(result.worst_log_odds, std::abs(ours - log_odds));
   }
 
   [[nodiscard]] static octomap::point3d octomapPoint(const Eigen::Vector3d& p) {

@@ -1,0 +1,94 @@
+// Cells as a damaged or forged file may hold them.
+#include "mapping/surface_cell.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+namespace thermovox {
+namespace {
+
+/// A cell of a return and five temperatures from 18 to 22 C.
+SurfaceCell soundCell() {
+  SurfaceCell cell;
+  cell.addReturn({0.25, 0.5, 0.75});
+  for (int i = 0; i < 5; ++i) {
+    const TemperatureObservation seen{18.0F + static_cast<float>(i), 0.5F, 5.0F, 0.0F};
+    cell.addTemperature(seen, Time(std::chrono::seconds(i)));
+  }
+  return cell;
+}
+
+/// Whether the cell passes once `damage` was done to it.
+template <typename Damage>
+bool passes(SurfaceCell cell, Damage&& damage) {
+  damage(cell);
+  return cell.isPlausible();
+}
+
+Sum96 times(const Sum96& sum, double factor) {
+  Sum96 product;
+  product += static_cast<Uint128>(static_cast<double>(sum.value()) * factor);
+  return product;
+}
+
+TEST(PlausibleCell, HasCountsThatCanBe) {
+  const SurfaceCell cell = soundCell();
+  ASSERT_TRUE(cell.isPlausible());
+  EXPECT_FALSE(SurfaceCell().isPlausible());  // no return, no place
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.returns = 0; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.returns = SurfaceCell::kMaxReturns + 1; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.offset_sum[2] = 256; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.observations = 0; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.observations = 1; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { std::swap(c.first_ns, c.last_ns); }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.best_incidence = 15709; }));
+  EXPECT_TRUE(passes(cell, [](SurfaceCell& c) { c.best_incidence = SurfaceCell::kUnknownIncidence; }));
+}
+
+TEST(PlausibleCell, HasNoTracesOfTemperaturesThatItDoesNotCount) {
+  SurfaceCell cell;
+  cell.addReturn({0, 0, 0});
+  ASSERT_TRUE(cell.isPlausible());
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.weight_sum = 1; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.best_range_cm = 1; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.last_ns = 1; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.max_celsius = 1.0F; }));
+}
+
+TEST(PlausibleCell, HasSumsThatItsCountsCanGive) {
+  const SurfaceCell cell = soundCell();
+  const auto scaled = [](double factor) {  // all in proportion: the moments still fit
+    return [factor](SurfaceCell& c) {
+      c.weight_sum = static_cast<std::uint64_t>(static_cast<double>(c.weight_sum) * factor);
+      c.weighted_sum = times(c.weighted_sum, factor);
+      c.weighted_square_sum = times(c.weighted_square_sum, factor);
+    };
+  };
+  EXPECT_TRUE(passes(cell, scaled(2.0)));
+  EXPECT_FALSE(passes(cell, scaled(1e4)));  // more than five observations of the smallest sigma
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.weight_sum = 4; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.weight_sum = 0; }));
+}
+
+TEST(PlausibleCell, HasMomentsThatFitItsExtremes) {
+  const SurfaceCell cell = soundCell();
+  const float nan = std::nanf("");
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.min_celsius = 20.5F; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.max_celsius = 19.5F; }));
+  EXPECT_FALSE(passes(cell, [&](SurfaceCell& c) { c.min_celsius = nan; }));
+  EXPECT_FALSE(passes(cell, [&](SurfaceCell& c) { c.max_celsius = nan; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.min_celsius = -274.0F; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.max_celsius = 3001.0F; }));
+  // The mean square lies between the mean's square and the extremes'.
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.weighted_square_sum = {}; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.weighted_square_sum.words[2] += 1; }));
+  EXPECT_FALSE(
+      passes(cell, [](SurfaceCell& c) { c.weighted_square_sum = times(c.weighted_square_sum, 0.9999); }));
+  EXPECT_FALSE(
+      passes(cell, [](SurfaceCell& c) { c.weighted_square_sum = times(c.weighted_square_sum, 1.02); }));
+}
+
+}  // namespace
+}  // namespace thermovox
