@@ -6,13 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "apps/arguments.hpp"
 #include "apps/verbs.hpp"
+#include "io/atomic_file.hpp"
 #include "io/cloud_writer.hpp"
 #include "io/map_picture.hpp"
 #include "io/octomap_file.hpp"
 #include "io/station.hpp"
 #include "mapping/surface_cloud.hpp"
-#include "projection/error.hpp"
 
 namespace thermovox {
 namespace {
@@ -44,26 +45,14 @@ void writePicture(const ExportArgs& args, const Station& station, const ThermalM
   writeMapPicture(args.out, surfaceCloud(map), options, existing);
 }
 
-void checkEnding(const fs::path& out) {
-  const std::string ending = out.extension().string();
-  for (const char* known : {".ply", ".pcd", ".csv", ".bt", ".ot", ".png"}) {
-    if (ending == known) return;
-  }
-  throw ConfigError(out.string() + ": cannot export to '" + ending +
-                    "', expected .ply, .pcd, .csv, .bt, .ot or .png");
-}
-
 void runExport(ExportArgs& args) {
-  checkEnding(args.out);
-  if (args.span.size() == 2) {
-    if (!(args.span[0] < args.span[1])) throw ConfigError("--span: expected LO < HI, in C");
-    args.scale.span = TemperatureSpan{args.span[0], args.span[1]};
-  }
+  checkEnding(args.out, {".ply", ".pcd", ".csv", ".bt", ".ot", ".png"});
+  args.scale.span = spanFrom(args.span);
   const Existing existing = args.force ? Existing::replace : Existing::refuse;
   checkOutput(args.out, existing);
   const Station station = Station::open(args.station);
   const ThermalMap map = station.loadMap();
-  const std::string ending = args.out.extension().string();
+  const std::string ending = endingOf(args.out);
   if (ending == ".bt") {
     writeBt(args.out, map, existing);
   } else if (ending == ".ot") {
@@ -90,8 +79,8 @@ void addExport(CLI::App& app) {
   verb->add_option("--span", args->span,
                    "Temperatures at the two ends of the palette, LO HI [C] (default: 2nd to 98th percentile)")
       ->expected(2);
-  verb->add_option("--palette", args->scale.palette, "inferno, ironbow, rainbow or grey (default inferno)")
-      ->transform(CLI::CheckedTransformer(kPalettes));
+  addChoice(*verb, "--palette", args->scale.palette, kPalettes,
+            "Colours of the temperatures (default inferno)");
   verb->add_flag("--force", args->force, "Replace OUT when it is there");
   verb->callback([args] { runExport(*args); });
 }

@@ -66,8 +66,8 @@ Kind kindOf(const fs::path& thing) {
       ": is nothing that thermovox knows, expected an image, mission, rig, captures, bag or station");
 }
 
-/// Minimum, mean and maximum of the known pixels, C.
-void addStatistics(Json& json, const ThermalImage& image) {
+/// Minimum, mean and maximum of the known pixels; empty when there are none.
+Json statisticsOf(const ThermalImage& image) {
   double sum = 0.0;
   std::size_t known = 0;
   float low = std::numeric_limits<float>::infinity();
@@ -79,22 +79,28 @@ void addStatistics(Json& json, const ThermalImage& image) {
     low = std::min(low, celsius);
     high = std::max(high, celsius);
   }
-  json["unknown_pixels"] = image.celsius.size() - known;
-  if (known == 0) return;
-  json["min"] = low;
-  json["mean"] = sum / static_cast<double>(known);
-  json["max"] = high;
+  if (known == 0) return Json::object();
+  return {{"min", low}, {"mean", sum / static_cast<double>(known)}, {"max", high}};
 }
+
+constexpr TLinear kCountsAsTheyAre{1.0, 0.0};
 
 Json imageInfo(const fs::path& file) {
   Json json{{"kind", "image"}};
   try {
-    const ThermalImage image = readThermalImage(file, 0, TLinear{});
+    const ThermalImage image = readThermalImage(file, 0, kCountsAsTheyAre);
     json["radiometric"] = true;
     json["width"] = image.width;
     json["height"] = image.height;
     json["pages"] = thermalTiffPages(file);
-    addStatistics(json, image);
+    if (thermalTiffPixels(file) == ThermalPixels::counts) {
+      json["counts"] = statisticsOf(image);
+      json["note"] = "Celsius needs the scale of the rig: celsius_per_count and celsius_offset";
+    } else {
+      json["unknown_pixels"] = std::count_if(image.celsius.begin(), image.celsius.end(),
+                                             [](float c) { return !std::isfinite(c); });
+      json.update(statisticsOf(image));
+    }
   } catch (const DataError& error) {
     json["radiometric"] = false;
     json["reason"] = error.what();
@@ -159,8 +165,7 @@ std::size_t rowsOf(const fs::path& list) {
 
 Json missionInfo(const fs::path& thing) {
   const OpenedMission opened = openMission(thing);
-  const fs::path file = opened.folder / "mission.yaml";
-  const MissionFile description = parseMissionFile(readWhole(file), file.string());
+  const MissionFile description = parseMissionFile(readWhole(opened.file), opened.file.string());
   const auto poses = opened.mission.trajectory.poses();
   std::size_t readings = 0;
   for (const std::string& list : description.lasers) readings += rowsOf(opened.folder / list);
@@ -214,7 +219,11 @@ Json verifiedStationInfo(const fs::path& file) {
   try {
     return stationInfo(file, true);
   } catch (const DataError& error) {
-    return {{"kind", "station"}, {"ok", false}, {"faults", Json::array({error.what()})}};
+    return {{"kind", "station"},
+            {"missions", Json::array()},
+            {"ok", false},
+            {"tiles", 0},
+            {"faults", Json::array({error.what()})}};
   }
 }
 
@@ -236,6 +245,11 @@ Json describe(const InfoArgs& args) {
   return args.verify ? verifiedStationInfo(args.thing) : stationInfo(args.thing, false);
 }
 
+/// As JSON; what is no UTF-8 (a name in a damaged file) does not stop it.
+std::string text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 /// The same content as lines "key: value", nested keys with a dot.
 void printLines(const Json& json, const std::string& prefix) {
   for (const auto& [key, value] : json.items()) {
@@ -245,7 +259,7 @@ void printLines(const Json& json, const std::string& prefix) {
     if (of_objects) {
       printLines(value, path);
     } else {
-      std::cout << path << ": " << (value.is_string() ? value.get<std::string>() : value.dump()) << '\n';
+      std::cout << path << ": " << (value.is_string() ? value.get<std::string>() : text(value, -1)) << '\n';
     }
   }
 }
@@ -253,7 +267,7 @@ void printLines(const Json& json, const std::string& prefix) {
 void runInfo(const InfoArgs& args) {
   const Json json = describe(args);
   if (args.json) {
-    std::cout << json.dump(2) << '\n';
+    std::cout << text(json, 2) << '\n';
   } else {
     printLines(json, "");
   }

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <new>
 
+#include "apps/arguments.hpp"
 #include "apps/verbs.hpp"
 #include "projection/error.hpp"
 
@@ -57,6 +58,8 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const thermovox::UnobservableError& error) {
     return fail(error.what(), kUnobservable);
+  } catch (const thermovox::UsageError& error) {
+    return fail(error.what(), kWrongUsage);
   } catch (const thermovox::Error& error) {
     return fail(error.what(), kFailed);
   } catch (const std::filesystem::filesystem_error& error) {

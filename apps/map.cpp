@@ -5,17 +5,23 @@
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
+#include <deque>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "apps/arguments.hpp"
+#include "apps/map_report.hpp"
 #include "apps/progress.hpp"
 #include "apps/verbs.hpp"
+#include "io/atomic_file.hpp"
 #include "io/mission_folder.hpp"
 #include "io/points_record.hpp"
 #include "io/rig_file.hpp"
@@ -46,30 +52,38 @@ struct MapArgs {
   std::int64_t mapped_at = 0;  ///< Unix seconds
 };
 
-struct MapResult {
-  std::vector<MissionReport> missions;
-  std::size_t voxels = 0;
-  double seconds = 0.0;
-
-  [[nodiscard]] double pointsPerSecond() const {
-    std::size_t points = 0;
-    for (const MissionReport& mission : missions) points += mission.points;
-    return seconds > 0.0 ? static_cast<double>(points) / seconds : 0.0;
+/// Temperatures need a camera in the rig and images in the mission: one without the other may be a slip.
+void warnOfHalfACamera(const OpenedMission& opened) {
+  const bool camera = opened.mission.rig.thermal_camera.has_value();
+  if (camera && !opened.thermal_list) {
+    spdlog::warn("{} has a thermal camera, but {} lists no thermal images: the map gets no temperatures",
+                 opened.rig_file.string(), opened.file.string());
+  } else if (!camera && opened.thermal_list) {
+    spdlog::warn("{} lists thermal images, but {} has no thermal_camera: the map gets no temperatures",
+                 opened.file.string(), opened.rig_file.string());
   }
-};
+}
 
-/// All missions, in the order of their flights: the result then does not depend on how they were named.
+/// All missions, in the order of their names on the command line.
 std::vector<OpenedMission> openMissions(const MapArgs& args) {
   std::vector<OpenedMission> opened;
   const MissionOptions options{.max_gap = durationFromSeconds(args.max_gap)};
   for (const fs::path& folder : args.missions) opened.push_back(openMission(folder, options));
-  std::stable_sort(opened.begin(), opened.end(), [](const OpenedMission& a, const OpenedMission& b) {
-    const auto key = [](const OpenedMission& m) {
-      return std::pair(m.mission.trajectory.poses().front().stamp, m.mission.name);
-    };
-    return key(a) < key(b);
-  });
+  for (const OpenedMission& mission : opened) warnOfHalfACamera(mission);
   return opened;
+}
+
+/// The missions' places in the order of their flights: in which they are mapped, so that the result does not
+/// depend on how they were named.
+std::vector<std::size_t> flightOrder(const std::vector<OpenedMission>& missions) {
+  const auto key = [&](std::size_t i) {
+    const Mission& mission = missions[i].mission;
+    return std::pair(mission.trajectory.poses().front().stamp, mission.name);
+  };
+  std::vector<std::size_t> order(missions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
 }
 
 /// Colours were to be expected, and there is not one: most likely the rig or a clock is wrong.
@@ -95,54 +109,21 @@ MissionReport mapOne(OpenedMission& opened, const MapArgs& args, ThermalMap& map
   const MissionReport report =
       mapMission({opened.mission, *opened.readings, opened.frames.get()}, map, args.mapper, listeners);
   checkColours(report, opened.frames != nullptr);
-  if (points != nullptr) points->flush();  // a full disk shows before the station has the mission
   return report;
 }
 
-nlohmann::ordered_json missionJson(const MissionReport& report) {
-  return {{"mission", report.mission},   {"readings", report.readings},     {"points", report.points},
-          {"coloured", report.coloured}, {"uncoloured", report.uncoloured}, {"dropped", report.dropped}};
+/// Of a new station.
+ThermalMap::Options newOptions(const MapArgs& args) {
+  ThermalMap::Options options;
+  if (args.resolution) options.resolution = *args.resolution;
+  return options;
 }
 
-void printJson(const MapResult& result) {
-  nlohmann::ordered_json json;
-  json["missions"] = nlohmann::ordered_json::array();
-  for (const MissionReport& report : result.missions) json["missions"].push_back(missionJson(report));
-  if (result.missions.size() == 1) json.update(missionJson(result.missions.front()));
-  json["voxels"] = result.voxels;
-  json["seconds"] = result.seconds;
-  json["points_per_second"] = result.pointsPerSecond();
-  std::cout << json.dump(2) << '\n';
-}
-
-void printCounts(const char* title, const std::map<std::string, std::size_t>& counts) {
-  if (counts.empty()) return;
-  std::cout << "  " << title;
-  const char* separator = " ";
-  for (const auto& [reason, n] : counts) {
-    std::cout << separator << reason << ' ' << n;
-    separator = ", ";
-  }
-  std::cout << '\n';
-}
-
-void printText(const MapResult& result, const fs::path& station) {
-  for (const MissionReport& report : result.missions) {
-    std::cout << report.mission << ": " << report.readings << " readings, " << report.points << " points, "
-              << report.coloured << " with a temperature\n";
-    printCounts("without:", report.uncoloured);
-    printCounts("dropped:", report.dropped);
-  }
-  std::cout << station.string() << ": " << result.voxels << " cells hold a surface, mapped in "
-            << result.seconds << " s\n";
-}
-
-/// The station to continue, or a new one. A resolution that contradicts an existing station is refused.
-Station openStation(const MapArgs& args) {
+/// The station to continue; none when it is to be made. A resolution that contradicts it is refused.
+std::optional<Station> existingStation(const MapArgs& args) {
   if (!fs::exists(args.station)) {
-    ThermalMap::Options options;
-    if (args.resolution) options.resolution = *args.resolution;
-    return Station::create(args.station, options);
+    checkOutput(args.station, Existing::refuse);
+    return std::nullopt;
   }
   Station station = Station::open(args.station);
   if (args.resolution && *args.resolution != station.options().resolution) {
@@ -161,14 +142,16 @@ std::string parametersOf(const MapArgs& args) {
 }
 
 /// Before hours of work: a mission that the station has already, or that is named twice.
-void checkNew(const std::vector<OpenedMission>& missions, const Station& station) {
+void checkNew(const std::vector<OpenedMission>& missions, const std::optional<Station>& station,
+              const MapArgs& args) {
+  if (args.known == KnownMission::add_again) return;
   std::set<std::string> names;
   for (const OpenedMission& opened : missions) {
     const std::string& name = opened.mission.name;
-    station.checkNew(name);
+    if (station) station->checkNew(name);
     if (names.insert(name).second) continue;
     throw DataError(opened.folder.string() + ": is a second mission '" + name + "' for the station " +
-                    station.path().string() + ", expected each name once (or --again to integrate both)");
+                    args.station.string() + ", expected each name once (or --again to integrate both)");
   }
 }
 
@@ -201,30 +184,56 @@ MissionRecord recordOf(const OpenedMission& opened, const MissionReport& report,
           .mapped_at = args.mapped_at};
 }
 
+void checkUsage(const MapArgs& args) {
+  if (!(args.max_gap > 0.0 && args.max_gap <= kLongestGap)) {
+    throw UsageError("--max-gap: found " + std::to_string(args.max_gap) +
+                     " s, expected more than 0 and at most " + std::to_string(kLongestGap) + " s");
+  }
+  if (!args.points.empty()) checkEnding(args.points, {".csv", ".ply"});
+  try {
+    newOptions(args).validate();
+  } catch (const ConfigError& error) {
+    throw UsageError(std::string("--resolution: ") + error.what());
+  }
+}
+
+std::unique_ptr<PointsRecord> openRecord(const MapArgs& args) {
+  if (args.points.empty()) return nullptr;
+  return std::make_unique<PointsRecord>(args.points, args.recorded,
+                                        args.force ? Existing::replace : Existing::refuse);
+}
+
+/// Maps all missions, and only then puts them into the station, all at once: whatever fails on the way leaves
+/// the station as it was.
+MapResult mapAll(std::vector<OpenedMission>& missions, const MapArgs& args) {
+  std::optional<Station> station = existingStation(args);
+  checkNew(missions, station, args);
+  const std::unique_ptr<PointsRecord> points = openRecord(args);
+  const ThermalMap::Options options = station ? station->options() : newOptions(args);
+  MapResult result;
+  result.missions.resize(missions.size());
+  std::deque<ThermalMap> maps;  // whose places stay where they are
+  std::vector<Station::Addition> additions;
+  for (const std::size_t place : flightOrder(missions)) {
+    ThermalMap& map = maps.emplace_back(options);
+    result.missions[place] = mapOne(missions[place], args, map, points.get());
+    additions.push_back({recordOf(missions[place], result.missions[place], args), &map});
+  }
+  if (points) points->finish();
+  if (!station) station.emplace(Station::create(args.station, options));
+  station->addMissions(additions, args.known);
+  if (points) points->commit();
+  result.voxels = static_cast<std::size_t>(station->counts().surfaces);
+  return result;
+}
+
 void runMap(MapArgs& args) {
   const auto begin = std::chrono::steady_clock::now();
-  if (!(args.max_gap > 0.0 && args.max_gap <= kLongestGap)) {
-    throw ConfigError("--max-gap: found " + std::to_string(args.max_gap) +
-                      " s, expected more than 0 and at most " + std::to_string(kLongestGap) + " s");
-  }
+  checkUsage(args);
   args.mapped_at = mappingTime();
   std::vector<OpenedMission> missions = openMissions(args);
   if (args.station.empty()) args.station = missions.front().mission.name + ".tvx";
-  std::unique_ptr<PointsRecord> points;
-  if (!args.points.empty()) {
-    points = std::make_unique<PointsRecord>(args.points, args.recorded,
-                                            args.force ? Existing::replace : Existing::refuse);
-  }
-  MapResult result;
-  Station station = openStation(args);
-  if (args.known == KnownMission::refuse) checkNew(missions, station);
-  for (OpenedMission& opened : missions) {
-    ThermalMap map(station.options());
-    result.missions.push_back(mapOne(opened, args, map, points.get()));
-    station.addMission(recordOf(opened, result.missions.back(), args), map, args.known);
-  }
-  result.voxels = static_cast<std::size_t>(station.counts().surfaces);
-  if (points) points->commit();
+  MapResult result = mapAll(missions, args);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (args.json) {
     printJson(result);
@@ -249,9 +258,8 @@ void addMap(CLI::App& app) {
   verb->add_flag_callback(
       "--all-points", [args] { args->recorded = RecordedPoints::all; },
       "Record the points without temperature too, with empty fields");
-  verb->add_option("--carve", args->mapper.carving,
-                   "Which cells a ray frees: octomap (all before its return) or none (default octomap)")
-      ->transform(CLI::CheckedTransformer(kCarvings));
+  addChoice(*verb, "--carve", args->mapper.carving, kCarvings,
+            "Which cells a ray frees: octomap (all before its return) or none (default octomap)");
   verb->add_option("--max-gap", args->max_gap, "Longest time without poses that is interpolated [s]")
       ->capture_default_str();
   verb->add_flag_callback(

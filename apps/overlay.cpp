@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/arguments.hpp"
 #include "apps/progress.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
@@ -121,7 +122,7 @@ class OverlaySeries {
     const std::string picture = fmt::format("frame_{:06}.png", frame_number_);
     OverlayOptions options{
         .title = fmt::format("{}   frame {}   {} s", name_, frame_number_, formatTime(frame.stamp))};
-    if (args_.span.size() == 2) options.span = TemperatureSpan{args_.span[0], args_.span[1]};
+    options.span = spanFrom(args_.span);
     writeOverlayPicture(folder_ / picture, *frame.image, gathered.points, options, Existing::refuse);
     for (const OverlayPoint& point : gathered.points) {
       if (point.label.empty()) continue;
@@ -155,7 +156,7 @@ class PartialFolder {
  public:
   explicit PartialFolder(const fs::path& out) : out_(out), path_(out.string() + ".partial") {
     fs::remove_all(path_);
-    fs::create_directories(path_);
+    fs::create_directory(path_);
   }
   ~PartialFolder() {
     std::error_code ignored;
@@ -187,8 +188,8 @@ void checkFolder(const OverlayArgs& args) {
 
 void runOverlay(OverlayArgs& args) {
   args.out = withoutSlash(args.out);
-  if (args.span.size() == 2 && !(args.span[0] < args.span[1]))
-    throw ConfigError("--span: expected LO < HI, in C");
+  (void)spanFrom(args.span);
+  checkFolderOf(args.out);
   checkFolder(args);
   OpenedMission opened = openMission(args.mission);
   if (!opened.frames)

@@ -4,8 +4,10 @@
 #include <memory>
 #include <string>
 
+#include "apps/arguments.hpp"
 #include "apps/simulate/mission_writer.hpp"
 #include "apps/verbs.hpp"
+#include "io/atomic_file.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -58,7 +60,8 @@ fs::path withoutSlash(const fs::path& folder) {
 }
 
 void replaceMission(const simulate::SimulationOptions& options, const fs::path& out) {
-  if (fs::exists(out) && !fs::exists(out / "mission.yaml")) {
+  const bool empty = fs::is_directory(out) && fs::is_empty(out);
+  if (fs::exists(out) && !empty && !fs::exists(out / "mission.yaml")) {
     throw DataError(
         out.string() +
         ": exists and is no mission (no mission.yaml in it), expected a name that --force may replace");
@@ -70,7 +73,17 @@ void replaceMission(const simulate::SimulationOptions& options, const fs::path& 
   truth.discard();
 }
 
+void checkUsage(const simulate::SimulationOptions& options) {
+  try {
+    options.validate();
+  } catch (const ConfigError& error) {
+    throw UsageError(error.what());
+  }
+}
+
 void runSimulate(const SimulateArgs& args) {
+  checkUsage(args.options);
+  checkFolderOf(withoutSlash(args.out));
   if (args.force) {
     replaceMission(args.options, args.out);
   } else {
@@ -89,18 +102,15 @@ void addSimulate(CLI::App& app) {
       "simulate",
       "Fly a synthetic converter hall and write the mission, with its truth beside it (OUT.truth.json).");
   verb->add_option("OUT", args->out, "Folder to write")->required();
-  verb->add_option("--laser", options.laser, "Kind of laser: beam (1D), scan (2D) or cloud (3D)")
-      ->required()
-      ->transform(CLI::CheckedTransformer(kLaserKinds));
+  addChoice(*verb, "--laser", options.laser, kLaserKinds, "Kind of laser: beam (1D), scan (2D) or cloud (3D)")
+      ->required();
   verb->add_option("--seed", options.seed, "Of hall, flight and noise: same seed, same bytes")
       ->capture_default_str();
   verb->add_option("--hall-seed", options.hall_seed,
                    "Of the hall alone, to fly the same hall again (default: --seed)");
   verb->add_option("--duration", options.duration, "Seconds of measuring")->capture_default_str();
-  verb->add_option("--lens", options.lens,
-                   "Lens model of the thermal camera: brown_conrady, kannala_brandt or pinhole (default "
-                   "brown_conrady)")
-      ->transform(CLI::CheckedTransformer(kLensModels));
+  addChoice(*verb, "--lens", options.lens, kLensModels,
+            "Lens model of the thermal camera (default brown_conrady)");
   verb->add_option("--netd", options.netd, "Noise of a thermal pixel, one sigma [C]")->capture_default_str();
   verb->add_option("--blur", options.blur_px, "Optics and pixel together, one sigma [px]")
       ->capture_default_str();

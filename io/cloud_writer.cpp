@@ -114,7 +114,7 @@ void writeCloudCsv(const std::filesystem::path& path, std::span<const SurfacePoi
 
 void writeCloud(const std::filesystem::path& path, std::span<const SurfacePoint> points,
                 const ColourScale& scale, Existing existing) {
-  const std::string ending = path.extension().string();
+  const std::string ending = endingOf(path);
   if (ending == ".pcd") return writePcd(path, points, scale, existing);
   if (ending == ".ply") return writePly(path, points, scale, existing);
   if (ending == ".csv") return writeCloudCsv(path, points, scale, existing);

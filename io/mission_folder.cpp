@@ -93,12 +93,14 @@ class MissionOpener {
   }
 
   OpenedMission open() const {
-    OpenedMission opened{.mission = mission(), .folder = folder_, .rig_file = folder_ / file_.rig};
+    OpenedMission opened{
+        .mission = mission(), .file = name_, .folder = folder_, .rig_file = folder_ / file_.rig};
     opened.readings = readings(opened.mission.rig);
-    if (opened.mission.rig.thermal_camera && file_.thermal) {
-      const fs::path list = wanted(*file_.thermal, "thermal");
-      opened.frames = readFrames({.list = list, .folder = folder_, .time_offset = file_.camera_time_offset},
-                                 *opened.mission.rig.thermal_camera);
+    if (file_.thermal) opened.thermal_list = wanted(*file_.thermal, "thermal");
+    if (opened.mission.rig.thermal_camera && opened.thermal_list) {
+      opened.frames = readFrames(
+          {.list = *opened.thermal_list, .folder = folder_, .time_offset = file_.camera_time_offset},
+          *opened.mission.rig.thermal_camera);
     }
     if (file_.visible) opened.visible_list = wanted(*file_.visible, "visible");
     return opened;

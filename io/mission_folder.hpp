@@ -36,8 +36,10 @@ struct OpenedMission {
   std::unique_ptr<ReadingSource> readings;  ///< of all lasers, in the order of their stamps
   /// Null when the rig has no thermal camera or the mission no thermal images.
   std::unique_ptr<FrameSource> frames;
+  std::filesystem::path file;    ///< mission.yaml
   std::filesystem::path folder;  ///< of mission.yaml
   std::filesystem::path rig_file;
+  std::optional<std::filesystem::path> thermal_list;  ///< also where the rig has no thermal camera
   std::optional<std::filesystem::path> visible_list;  ///< `timestamp,file` of the visible pictures
 };
 

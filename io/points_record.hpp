@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "io/atomic_file.hpp"
+#include "io/point_rows.hpp"
 #include "mapping/mission_mapper.hpp"
 
 namespace thermovox {
@@ -25,32 +25,22 @@ class PointsRecord {
   PointsRecord(const std::filesystem::path& path, RecordedPoints which, Existing existing);
   ~PointsRecord();
 
-  /// Readings are to come in the order of their stamps; points within and across them are sorted here.
+  /// Adds the points of a reading; readings may come in any order and overlap, they are sorted here.
   void add(std::span<const ColouredReturn> reading);
-  /// Brings all that was added to the disk, still beside the file's name: for verbs that change something
-  /// else before commit(), which after this can hardly fail any more. What is added later stands behind it.
-  void flush();
-  /// Writes what is left and puts the file into place.
+  /// Writes all that was added and brings it to the disk, still beside the file's name: for verbs that change
+  /// something else before commit(), which after this can hardly fail any more. To be called once.
+  void finish();
+  /// Puts the finished file into place.
   void commit();
 
-  /// One line of the record.
-  struct Row {
-    Time stamp;
-    Eigen::Vector3d p_world;
-    double range = 0.0;
-    std::optional<Colour> colour;
-  };
   /// How rows are spelled in one kind of file.
   class Format;
 
  private:
-  void writeBefore(Time stamp);
-
   AtomicFile file_;
   RecordedPoints which_;
   std::unique_ptr<Format> format_;
-  std::vector<Row> waiting_;  ///< until no earlier one can come
-  std::uint64_t written_ = 0;
+  PointRows rows_;
 };
 
 }  // namespace thermovox

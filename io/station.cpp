@@ -3,10 +3,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
+#include <csignal>
 #include <map>
 #include <utility>
 
 #include "io/atomic_file.hpp"
+#include "io/number_text.hpp"
 #include "io/sqlite.hpp"
 #include "io/station_schema.hpp"
 #include "io/tile_codec.hpp"
@@ -16,6 +20,8 @@ namespace thermovox {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::string_view kUnfinished = ".unfinished";
+constexpr std::string_view kJournal = "-journal";
 constexpr const char* kMissionColumns =
     "name, rig, parameters, readings, points, coloured, first_ns, last_ns, version, mapped_at";
 
@@ -95,8 +101,31 @@ void checkIsFile(const fs::path& path) {
     throw DataError(path.string() + ": is empty, expected a station file");
 }
 
+fs::path folderOf(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// Whether the name is NAME.tvx.<process>.unfinished or its journal, of a process that lives no more.
+bool isLeftover(std::string_view name, const std::string& station) {
+  if (name.ends_with(kJournal)) name.remove_suffix(kJournal.size());
+  if (!name.starts_with(station + ".") || !name.ends_with(kUnfinished)) return false;
+  name.remove_prefix(station.size() + 1);
+  name.remove_suffix(kUnfinished.size());
+  const std::optional<int> process = parseInteger(name);
+  return process && *process > 0 && ::kill(*process, 0) != 0 && errno == ESRCH;
+}
+
+/// Removes what killed processes left of this station's making.
+void removeLeftovers(const fs::path& station) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folderOf(station), ignored)) {
+    if (isLeftover(entry.path().filename().string(), station.filename().string()))
+      fs::remove(entry.path(), ignored);
+  }
+}
+
 void syncFolderOf(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const fs::path folder = folderOf(path);
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;  // a folder that cannot be opened for reading can still be written to
   ::fsync(descriptor);
@@ -120,7 +149,7 @@ struct Station::Storage {
     if (unfinished.empty()) return;
     std::error_code ignored;
     fs::remove(unfinished, ignored);
-    fs::remove(unfinished.string() + "-journal", ignored);
+    fs::remove(unfinished.string() + kJournal.data(), ignored);
   }
 };
 
@@ -141,7 +170,8 @@ Station Station::open(const fs::path& path) {
 Station Station::create(const fs::path& path, const ThermalMap::Options& options) {
   options.validate();
   checkOutput(path, Existing::refuse);
-  const fs::path unfinished = path.string() + "." + std::to_string(::getpid()) + ".unfinished";
+  removeLeftovers(path);
+  const fs::path unfinished = path.string() + "." + std::to_string(::getpid()) + kUnfinished.data();
   std::error_code ignored;
   fs::remove(unfinished, ignored);
   auto storage = std::make_unique<Storage>(unfinished, SqlDatabase::Mode::create, path);
@@ -163,10 +193,7 @@ void Station::finishCreation() {
 }
 
 Station::Counts Station::counts() const {
-  const SqlDatabase& database = *storage_->database;
-  return {database.integer("SELECT count(*) FROM missions"), database.integer("SELECT count(*) FROM tiles"),
-          database.integer("SELECT coalesce(sum(blocks), 0) FROM tiles"),
-          database.integer("SELECT coalesce(sum(surfaces), 0) FROM tiles")};
+  return countStation(*storage_->database);
 }
 
 std::vector<MissionRecord> Station::missions() const {
@@ -210,15 +237,25 @@ void Station::checkNew(const std::string& mission) const {
 }
 
 void Station::addMission(const MissionRecord& record, const ThermalMap& mission_map, KnownMission known) {
-  if (mission_map.options() != options_) {
+  const std::array<Addition, 1> one{{{record, &mission_map}}};
+  addMissions(one, known);
+}
+
+void Station::addMissions(std::span<const Addition> additions, KnownMission known) {
+  for (const auto& [record, map] : additions) {
+    if (map->options() == options_) continue;
     throw ConfigError(path_.string() + ": has cells of " + std::to_string(options_.resolution) +
                       " m, expected a mission mapped with the same resolution and occupancy model (it has " +
-                      std::to_string(mission_map.resolution()) + " m)");
+                      std::to_string(map->resolution()) + " m)");
   }
   SqlTransaction transaction(*storage_->database);
-  if (known == KnownMission::refuse) checkNew(record.name);
-  insertMission(*storage_->database, record);
-  mergeTiles(*storage_->database, mission_map, path_);
+  checkCounts(*storage_->database, path_);
+  for (const auto& [record, map] : additions) {
+    if (known == KnownMission::refuse) checkNew(record.name);
+    insertMission(*storage_->database, record);
+    mergeTiles(*storage_->database, *map, path_);
+  }
+  recordCounts(*storage_->database);
   transaction.commit();
   if (!storage_->unfinished.empty()) finishCreation();
 }
@@ -229,6 +266,11 @@ std::vector<std::string> Station::verify() const {
     SqlStatement check = storage_->database->prepare("PRAGMA integrity_check(20)");
     while (check.step()) {
       if (check.text(0) != "ok") faults.push_back(path_.string() + ": " + check.text(0));
+    }
+    try {
+      checkCounts(*storage_->database, path_);
+    } catch (const DataError& error) {
+      faults.emplace_back(error.what());
     }
     (void)missions();
     SqlStatement query =

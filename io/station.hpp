@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,8 @@ class Station {
   /// An existing station; works from a read-only folder too. Refuses one of a newer version of the program.
   [[nodiscard]] static Station open(const std::filesystem::path& path);
   /// A new station. Nothing is there under its name until the first mission is in: it is built beside it.
-  /// Throws DataError when the name is taken or its folder does not exist.
+  /// What killed processes left of such files is removed. Throws DataError when the name is taken or its
+  /// folder does not exist.
   [[nodiscard]] static Station create(const std::filesystem::path& path, const ThermalMap::Options& options);
 
   Station(Station&&) noexcept;
@@ -64,8 +66,14 @@ class Station {
   /// Throws DataError naming mission and station when it has a mission of that name. For verbs that work for
   /// minutes before they write: ask first.
   void checkNew(const std::string& mission) const;
-  /// Merges a mission's map into the stored tiles and records the mission, in one transaction. Throws
-  /// ConfigError when the map has other options than the station.
+  /// A mission to add; the map must live until it is.
+  struct Addition {
+    MissionRecord record;
+    const ThermalMap* map = nullptr;
+  };
+  /// Merges the missions' maps into the stored tiles and records the missions, all or none, in one
+  /// transaction. Throws ConfigError when a map has other options than the station.
+  void addMissions(std::span<const Addition> additions, KnownMission known);
   void addMission(const MissionRecord& record, const ThermalMap& mission_map, KnownMission known);
 
   /// Reads everything: the faults found, one sentence each; none when the station is sound.

@@ -35,8 +35,25 @@ auto optionFields(auto& options) {
                                {"occupied", &options.occupancy.occupied}}};
 }
 
+/// The counts by their keys in `meta`.
+auto countFields(auto& counts) {
+  using Field = std::pair<const char*, decltype(&counts.tiles)>;
+  return std::array<Field, 4>{{{"missions", &counts.missions},
+                               {"tiles", &counts.tiles},
+                               {"blocks", &counts.blocks},
+                               {"surfaces", &counts.surfaces}}};
+}
+
 void writeMeta(SqlDatabase& database, std::string_view key, std::string_view value) {
-  database.prepare("INSERT INTO meta VALUES (?, ?)").bindText(1, key).bindText(2, value).run();
+  database.prepare("INSERT OR REPLACE INTO meta VALUES (?, ?)").bindText(1, key).bindText(2, value).run();
+}
+
+double readMeta(const SqlDatabase& database, const char* key, const std::filesystem::path& path) {
+  SqlStatement query = database.prepare("SELECT value FROM meta WHERE key = ?");
+  query.bindText(1, key);
+  const std::optional<double> number = query.step() ? parseNumber(query.text(0)) : std::nullopt;
+  if (!number) throw DataError(path.string() + ": is damaged, its table meta has no number for " + key);
+  return *number;
 }
 
 }  // namespace
@@ -49,6 +66,7 @@ void createStationTables(SqlDatabase& database, const ThermalMap::Options& optio
   writeMeta(database, "schema_version", std::to_string(kStationSchema));
   writeMeta(database, "frame", "world: metres, right-handed, z up");
   for (const auto& [key, value] : optionFields(options)) writeMeta(database, key, exactText(*value));
+  recordCounts(database);
   transaction.commit();
 }
 
@@ -65,15 +83,30 @@ void checkStationTables(const SqlDatabase& database, const std::filesystem::path
   if (version < 1) throw DataError(path.string() + ": is a station of an unknown version");
 }
 
+Station::Counts countStation(const SqlDatabase& database) {
+  return {database.integer("SELECT count(*) FROM missions"), database.integer("SELECT count(*) FROM tiles"),
+          database.integer("SELECT coalesce(sum(blocks), 0) FROM tiles"),
+          database.integer("SELECT coalesce(sum(surfaces), 0) FROM tiles")};
+}
+
+void checkCounts(const SqlDatabase& database, const std::filesystem::path& path) {
+  const Station::Counts counts = countStation(database);
+  for (const auto& [key, count] : countFields(counts)) {
+    const double recorded = readMeta(database, key, path);
+    if (recorded == static_cast<double>(*count)) continue;
+    throw DataError(path.string() + ": is damaged, it holds " + std::to_string(*count) + " " + key +
+                    ", expected " + exactText(recorded) + " as it says itself");
+  }
+}
+
+void recordCounts(SqlDatabase& database) {
+  const Station::Counts counts = countStation(database);
+  for (const auto& [key, count] : countFields(counts)) writeMeta(database, key, std::to_string(*count));
+}
+
 ThermalMap::Options readStationOptions(const SqlDatabase& database, const std::filesystem::path& path) {
   ThermalMap::Options options;
-  for (const auto& [key, value] : optionFields(options)) {
-    SqlStatement query = database.prepare("SELECT value FROM meta WHERE key = ?");
-    query.bindText(1, key);
-    const std::optional<double> number = query.step() ? parseNumber(query.text(0)) : std::nullopt;
-    if (!number) throw DataError(path.string() + ": is damaged, its table meta has no number for " + key);
-    *value = *number;
-  }
+  for (const auto& [key, value] : optionFields(options)) *value = readMeta(database, key, path);
   try {
     const ThermalMap valid(options);
   } catch (const ConfigError& error) {

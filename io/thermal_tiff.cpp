@@ -113,6 +113,9 @@ class TiffFile {
   TiffFile& operator=(const TiffFile&) = delete;
 
   [[nodiscard]] int pages() { return static_cast<int>(TIFFNumberOfDirectories(tiff_.get())); }
+  [[nodiscard]] ThermalPixels pixels() {
+    return layout().floating ? ThermalPixels::celsius : ThermalPixels::counts;
+  }
   ThermalImage read(int page, const TLinear& t_linear);
 
  private:
@@ -262,6 +265,10 @@ ThermalImage readThermalTiff(const std::filesystem::path& file, int page, const 
 ThermalImage readThermalTiff(std::span<const std::byte> bytes, const std::string& name, int page,
                              const TLinear& t_linear) {
   return TiffFile(bytes, name).read(page, t_linear);
+}
+
+ThermalPixels thermalTiffPixels(const std::filesystem::path& file) {
+  return TiffFile(file).pixels();
 }
 
 int thermalTiffPages(const std::filesystem::path& file) {

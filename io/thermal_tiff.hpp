@@ -21,6 +21,15 @@ namespace thermovox {
 [[nodiscard]] ThermalImage readThermalTiff(std::span<const std::byte> bytes, const std::string& name,
                                            int page, const TLinear& t_linear);
 
+/// What the numbers in a thermal TIFF are.
+enum class ThermalPixels {
+  counts,   ///< of 16 bits; only with the camera's scale do they become temperatures
+  celsius,  ///< 32-bit floats
+};
+
+/// Of the first page. Throws DataError as readThermalTiff does.
+[[nodiscard]] ThermalPixels thermalTiffPixels(const std::filesystem::path& file);
+
 /// How many pages the file has. Throws DataError when it is no TIFF.
 [[nodiscard]] int thermalTiffPages(const std::filesystem::path& file);
 

@@ -25,7 +25,7 @@ fs::path besides(const fs::path& out, const std::string& ending) {
 
 void refuseExisting(const fs::path& path) {
   if (!fs::exists(path)) return;
-  throw DataError(path.string() + ": exists already, expected a new name");
+  throw DataError(path.string() + ": exists already, expected a new name (or --force to replace it)");
 }
 
 /// Removes what a failed run would leave behind.
@@ -58,7 +58,7 @@ void simulateMission(const SimulationOptions& options, const fs::path& out) {
   const Simulation simulation(options);
   const fs::path folder = named(out);
   const fs::path truth = truthPath(out);
-  refuseExisting(folder);
+  if (!fs::is_directory(folder) || !fs::is_empty(folder)) refuseExisting(folder);
   refuseExisting(truth);
   const fs::path new_folder = besides(folder, ".partial");
   const fs::path new_truth = besides(folder, ".truth.json.partial");

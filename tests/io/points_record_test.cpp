@@ -59,6 +59,7 @@ TEST(PointsRecord, CsvHasTheColumnsOfTheFormatAndEnoughDecimals) {
   const test::TestFolder folder;
   PointsRecord record(folder / "points.csv", RecordedPoints::coloured, Existing::refuse);
   record.add(std::vector{pointAt(kStart, 1.00005)});
+  record.finish();
   record.commit();
   EXPECT_THAT(linesOf(folder / "points.csv"),
               ElementsAre("timestamp,x,y,z,range,u,v,temperature,sigma",
@@ -70,6 +71,7 @@ TEST(PointsRecord, PointsWithoutTemperatureAreLeftOutOrHaveEmptyFields) {
   for (const RecordedPoints which : {RecordedPoints::coloured, RecordedPoints::all}) {
     PointsRecord record(folder / "points.csv", which, Existing::replace);
     record.add(std::vector{pointAt(kStart, 1.0, false), pointAt(kStart + 1, 2.0)});
+    record.finish();
     record.commit();
     const std::vector<std::string> lines = linesOf(folder / "points.csv");
     const bool all = which == RecordedPoints::all;
@@ -101,6 +103,7 @@ TEST(PointsRecord, RowsAreInTimeOrderWithinAndAcrossReadings) {
   const test::TestFolder folder;
   PointsRecord record(folder / "points.csv", RecordedPoints::all, Existing::refuse);
   for (const auto& sweep : overlappingSweeps()) record.add(sweep);
+  record.finish();
   record.commit();
   const std::vector<std::string> lines = linesOf(folder / "points.csv");
   ASSERT_EQ(lines.size(), 1U + 30U * 200U);
@@ -141,6 +144,7 @@ TEST(PointsRecord, PclReadsThePlyBackWithDoubleCoordinatesAndStamps) {
   const double x = 1234567.123456789;  // more than a float holds
   record.add(std::vector{pointAt(kStart, x), pointAt(kStart + 1'000'000, x + 1e-6, false)});
   record.add(std::vector{pointAt(kStart + 2'000'000, 3.0)});
+  record.finish();
   record.commit();
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::PLYReader().read((folder / "points.ply").string(), cloud), 0);
@@ -164,6 +168,7 @@ TEST(PointsRecord, PlyHoldsAsManyPointsAsItsHeaderSays) {
     record.add(sweep);
     for (const ColouredReturn& point : sweep) coloured += point.colour.has_value();
   }
+  record.finish();
   record.commit();
   const std::string bytes = test::bytesOf(folder / "points.ply");
   const std::size_t body = bytes.find("end_header\n") + 11;
@@ -177,6 +182,7 @@ TEST(PointsRecord, ARecordWithoutPointsIsStillAFile) {
     PointsRecord record(folder / name, RecordedPoints::coloured, Existing::refuse);
     record.add({});
     record.add(std::vector{pointAt(kStart, 1.0, false)});
+    record.finish();
     record.commit();
   }
   EXPECT_EQ(linesOf(folder / "none.csv").size(), 1U);
@@ -193,19 +199,25 @@ TEST(PointsRecord, WithoutCommitNothingIsLeftBehind) {
   EXPECT_THAT(namesIn(folder), testing::IsEmpty());
 }
 
-TEST(PointsRecord, FlushBringsAllToTheDiskUnderAnotherNameAndMoreMayFollow) {
+TEST(PointsRecord, FinishBringsAllToTheDiskWithoutTheName) {
   const test::TestFolder folder;
   for (const char* name : {"points.csv", "points.ply"}) {
     PointsRecord record(folder / name, RecordedPoints::coloured, Existing::refuse);
     record.add(std::vector{pointAt(kStart, 1.0), pointAt(kStart + 5, 2.0)});
-    record.flush();
+    record.finish();
     EXPECT_FALSE(fs::exists(folder / name));
-    record.add(std::vector{pointAt(kStart + 9, 3.0)});
     record.commit();
   }
-  EXPECT_EQ(linesOf(folder / "points.csv").size(), 4U);
-  EXPECT_THAT(test::bytesOf(folder / "points.ply"), HasSubstr("element vertex 3\n"));
+  EXPECT_EQ(linesOf(folder / "points.csv").size(), 3U);
   EXPECT_EQ(namesIn(folder).size(), 2U);
+}
+
+TEST(PointsRecord, EndingsAreReadWhateverTheirCase) {
+  const test::TestFolder folder;
+  PointsRecord record(folder / "POINTS.PLY", RecordedPoints::all, Existing::refuse);
+  record.finish();
+  record.commit();
+  EXPECT_THAT(test::bytesOf(folder / "POINTS.PLY"), testing::StartsWith("ply\n"));
 }
 
 TEST(PointsRecord, AnExistingFileIsKeptUnlessItMayBeReplaced) {
@@ -217,6 +229,7 @@ TEST(PointsRecord, AnExistingFileIsKeptUnlessItMayBeReplaced) {
   EXPECT_EQ(test::bytesOf(file), "precious");
   PointsRecord record(file, RecordedPoints::all, Existing::replace);
   EXPECT_EQ(test::bytesOf(file), "precious");  // until the new one is whole
+  record.finish();
   record.commit();
   EXPECT_EQ(test::bytesOf(file), "timestamp,x,y,z,range,u,v,temperature,sigma\n");
   EXPECT_THAT(namesIn(folder), ElementsAre("points.csv"));

@@ -142,6 +142,35 @@ TEST(Station, IsNotThereUntilItsFirstMissionIs) {
   EXPECT_THAT(namesIn(folder.path()), IsEmpty());
 }
 
+TEST(Station, TakesSeveralMissionsOrNone) {
+  const TestFolder folder;
+  const fs::path path = stationOf(folder, {1});
+  const ThermalMap second = randomMission(2), third = randomMission(3);
+  const std::vector<Station::Addition> twice{{record("m2"), &second}, {record("m2"), &third}};
+  Station station = Station::open(path);
+  EXPECT_THROW(station.addMissions(twice, KnownMission::refuse), DataError);
+  EXPECT_TRUE(sameMap(station.loadMap(), randomMission(1)));
+  const std::vector<Station::Addition> both{{record("m2"), &second}, {record("m3"), &third}};
+  station.addMissions(both, KnownMission::refuse);
+  EXPECT_TRUE(sameMap(station.loadMap(), merged({1, 2, 3})));
+  EXPECT_THAT(station.verify(), IsEmpty());
+}
+
+TEST(Station, RemovesWhatKilledProcessesLeft) {
+  const TestFolder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    const Station station = Station::create(folder / "plant.tvx", randomMission(0).options());
+    _exit(0);  // without its destructor, as if killed
+  }
+  waitpid(child, nullptr, 0);
+  const std::string living = "plant.tvx." + std::to_string(::getppid()) + ".unfinished";
+  folder.write(living, "of another process");
+  ASSERT_EQ(namesIn(folder.path()).size(), 2U);
+  stationOf(folder, {1});
+  EXPECT_THAT(namesIn(folder.path()), testing::UnorderedElementsAre("plant.tvx", living));
+}
+
 TEST(Station, RefusesAMissionItHas) {
   const TestFolder folder;
   const fs::path path = stationOf(folder, {1});
@@ -221,7 +250,23 @@ TEST(Station, VerifiesItsCounts) {
   const TestFolder folder;
   const fs::path path = stationOf(folder, {1});
   executeSql(path, "UPDATE tiles SET surfaces = surfaces + 1 WHERE x = 0 AND y = 0 AND z = 0");
-  EXPECT_EQ(Station::open(path).verify().size(), 1U);
+  EXPECT_THAT(Station::open(path).verify(),
+              testing::ElementsAre(HasSubstr("is damaged, it holds"), HasSubstr("than it says")));
+}
+
+TEST(Station, NoticesLostTilesAndMissions) {
+  const TestFolder folder;
+  for (const char* loss : {"DELETE FROM tiles WHERE x = -1 AND y = -1 AND z = -1", "DELETE FROM tiles",
+                           "DELETE FROM missions WHERE id = 2"}) {
+    SCOPED_TRACE(loss);
+    const fs::path path = stationOf(folder, {1, 2});
+    executeSql(path, loss);
+    Station station = Station::open(path);
+    EXPECT_THAT(station.verify(), testing::ElementsAre(HasSubstr("plant.tvx: is damaged, it holds")));
+    // A further mission must not make the loss look right.
+    EXPECT_THROW(station.addMission(record("m3"), randomMission(3), KnownMission::refuse), DataError);
+    fs::remove(path);
+  }
 }
 
 TEST(Station, RefusesMetaThatIsGone) {

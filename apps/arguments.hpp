@@ -1,0 +1,40 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/palette.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+
+/// A command line that asks for what cannot be: exit code 2, as for one that cannot be parsed.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// An option that is one of several words. Help and refusals show the words and nothing else.
+template <typename Value>
+CLI::Option* addChoice(CLI::App& verb, const std::string& name, Value& value,
+                       const std::map<std::string, Value>& choices, const std::string& help) {
+  std::string words;
+  for (const auto& [word, meaning] : choices) words += (words.empty() ? "" : "|") + word;
+  const auto choose = [name, words, choices, &value](const std::string& word) {
+    const auto choice = choices.find(word);
+    if (choice == choices.end()) throw UsageError(name + ": found '" + word + "', expected " + words);
+    value = choice->second;
+  };
+  return verb.add_option_function<std::string>(name, choose, help)->type_name(words);
+}
+
+/// `--span LO HI`. None where it was not given; throws UsageError unless both are finite and LO < HI.
+[[nodiscard]] std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span);
+
+/// Throws UsageError unless the path's ending, whatever its case, is one of these.
+void checkEnding(const std::filesystem::path& path, const std::vector<std::string>& endings);
+
+}  // namespace thermovox

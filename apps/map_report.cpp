@@ -1,0 +1,51 @@
+#include "apps/map_report.hpp"
+
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace thermovox {
+namespace {
+
+nlohmann::ordered_json missionJson(const MissionReport& report) {
+  return {{"mission", report.mission},   {"readings", report.readings},     {"points", report.points},
+          {"coloured", report.coloured}, {"uncoloured", report.uncoloured}, {"dropped", report.dropped}};
+}
+
+void printCounts(const char* title, const std::map<std::string, std::size_t>& counts) {
+  if (counts.empty()) return;
+  std::cout << "  " << title;
+  const char* separator = " ";
+  for (const auto& [reason, n] : counts) {
+    std::cout << separator << reason << ' ' << n;
+    separator = ", ";
+  }
+  std::cout << '\n';
+}
+
+}  // namespace
+
+void printJson(const MapResult& result) {
+  nlohmann::ordered_json json;
+  json["missions"] = nlohmann::ordered_json::array();
+  for (const MissionReport& report : result.missions) json["missions"].push_back(missionJson(report));
+  if (result.missions.size() == 1) json.update(missionJson(result.missions.front()));
+  json["voxels"] = result.voxels;
+  json["seconds"] = result.seconds;
+  json["points_per_second"] = result.pointsPerSecond();
+  std::cout << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+}
+
+void printText(const MapResult& result, const std::filesystem::path& station) {
+  for (const MissionReport& report : result.missions) {
+    std::cout << report.mission << ": " << report.readings << " readings, " << report.points << " points, "
+              << report.coloured << " with a temperature\n";
+    printCounts("without:", report.uncoloured);
+    printCounts("dropped:", report.dropped);
+  }
+  std::cout << station.string() << ": " << result.voxels << " cells hold a surface, mapped in "
+            << result.seconds << " s\n";
+}
+
+}  // namespace thermovox
