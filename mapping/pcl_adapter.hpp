@@ -10,7 +10,8 @@
 
 #include "mapping/surface_cloud.hpp"
 
-// The one header of the map that speaks PCL; only who wants PCL's clouds includes it.
+// The one header of the map that speaks PCL; only who wants PCL's clouds includes it,
+// and has to find PCL and link pcl_common for it: thermovox's own libraries do not bring PCL along.
 
 namespace thermovox {
 
