@@ -17,6 +17,7 @@
 #include "io/thermal_image_file.hpp"
 #include "io/thermal_tiff.hpp"
 #include "projection/error.hpp"
+#include "projection/kind_names.hpp"
 
 namespace thermovox {
 namespace {
@@ -108,35 +109,11 @@ Json imageInfo(const fs::path& file) {
   return json;
 }
 
-const char* name(LaserKind kind) {
-  switch (kind) {
-    case LaserKind::beam:
-      return "beam";
-    case LaserKind::scan:
-      return "scan";
-    case LaserKind::cloud:
-      break;
-  }
-  return "cloud";
-}
-
-const char* name(LensModel model) {
-  switch (model) {
-    case LensModel::pinhole:
-      return "pinhole";
-    case LensModel::brown_conrady:
-      return "brown_conrady";
-    case LensModel::kannala_brandt:
-      break;
-  }
-  return "kannala_brandt";
-}
-
 Json cameraInfo(const Camera& camera) {
   constexpr double degrees = 180.0 / M_PI;
   return {{"width", camera.width()},
           {"height", camera.height()},
-          {"model", name(camera.intrinsics().model)},
+          {"model", nameOf(camera.intrinsics().model)},
           {"field_of_view_deg",
            {2.0 * degrees * std::atan(0.5 * camera.width() / camera.fx()),
             2.0 * degrees * std::atan(0.5 * camera.height() / camera.fy())}}};
@@ -146,7 +123,7 @@ Json rigInfo(const Rig& rig) {
   Json json{{"kind", "rig"}};
   json["lasers"] = Json::array();
   for (const Laser& laser : rig.lasers) {
-    json["lasers"].push_back({{"kind", name(laser.kind)},
+    json["lasers"].push_back({{"kind", nameOf(laser.kind)},
                               {"range", {laser.range_min, laser.range_max}},
                               {"range_sigma", laser.range_sigma},
                               {"calibrated", !laser.covariance_body_laser.isZero(0.0)}});

@@ -6,6 +6,7 @@
 #include "io/atomic_file.hpp"
 #include "io/number_text.hpp"
 #include "io/rig_file.hpp"
+#include "projection/kind_names.hpp"
 
 namespace thermovox {
 namespace {
@@ -42,30 +43,6 @@ class Block {
   std::string& text_;
   std::string indent_;
 };
-
-std::string_view nameOf(LensModel model) {
-  switch (model) {
-    case LensModel::brown_conrady:
-      return "brown_conrady";
-    case LensModel::kannala_brandt:
-      return "kannala_brandt";
-    case LensModel::pinhole:
-      break;
-  }
-  return "pinhole";
-}
-
-std::string_view nameOf(LaserKind kind) {
-  switch (kind) {
-    case LaserKind::scan:
-      return "scan";
-    case LaserKind::cloud:
-      return "cloud";
-    case LaserKind::beam:
-      break;
-  }
-  return "beam";
-}
 
 void writeIntrinsics(Block& block, const Intrinsics& in) {
   block.line("width", std::to_string(in.width_px));

@@ -6,6 +6,7 @@
 
 #include "io/input_file.hpp"
 #include "projection/error.hpp"
+#include "projection/kind_names.hpp"
 
 namespace thermovox::simulate {
 namespace {
@@ -14,18 +15,6 @@ using Json = nlohmann::ordered_json;
 
 Json vectorJson(const Eigen::Vector3d& v) {
   return Json::array({v.x(), v.y(), v.z()});
-}
-
-const char* nameOf(LaserKind kind) {
-  switch (kind) {
-    case LaserKind::beam:
-      return "beam";
-    case LaserKind::scan:
-      return "scan";
-    case LaserKind::cloud:
-      break;
-  }
-  return "cloud";
 }
 
 Eigen::Vector3d vectorFrom(const Json& json) {
