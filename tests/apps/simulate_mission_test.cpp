@@ -56,12 +56,21 @@ TEST(SimulateMission, LeavesOnlyTheMissionAndItsTruth) {
 TEST(SimulateMission, RefusesToOverwriteAMissionOrATruth) {
   const test::TestFolder folder;
   fs::create_directory(folder / "hall");
+  folder.write("hall/notes.txt", "mine");
   const auto fly = [&] { simulateMission(optionsOf(LaserKind::beam, 0.2), folder / "hall"); };
   EXPECT_THAT(test::messageOf<DataError>(fly), testing::HasSubstr("exists already"));
-  fs::remove(folder / "hall");
+  EXPECT_TRUE(fs::exists(folder / "hall" / "notes.txt"));
+  fs::remove_all(folder / "hall");
   folder.write("hall.truth.json", "{}");
   EXPECT_THAT(test::messageOf<DataError>(fly), testing::HasSubstr("truth.json: exists already"));
   EXPECT_FALSE(fs::exists(folder / "hall"));
+}
+
+TEST(SimulateMission, FillsAnEmptyFolder) {
+  const test::TestFolder folder;
+  fs::create_directory(folder / "hall");
+  simulateMission(optionsOf(LaserKind::beam, 0.2), folder / "hall");
+  EXPECT_TRUE(fs::exists(folder / "hall" / "mission.yaml"));
 }
 
 TEST(SimulateMission, AFailedRunLeavesNothing) {
