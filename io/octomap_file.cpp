@@ -16,7 +16,8 @@ void writeStream(const std::filesystem::path& path, const std::ostringstream& st
   file.commit();
 }
 
-/// The bytes of OctoMap's writeBinary, which as Debian builds it says "done." on stderr.
+/// The bytes of OctoMap's writeBinary, node by node: its own two ways to write a whole tree speak on stderr,
+/// the one always, the other in builds with assertions.
 void writeBinary(octomap::OcTree& tree, std::ostream& stream) {
   tree.toMaxLikelihood();
   tree.prune();
@@ -24,7 +25,7 @@ void writeBinary(octomap::OcTree& tree, std::ostream& stream) {
             "# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
          << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution()
          << "\ndata\n";
-  tree.writeBinaryData(stream);
+  if (tree.getRoot() != nullptr) tree.writeBinaryNode(stream, tree.getRoot());
 }
 
 }  // namespace
