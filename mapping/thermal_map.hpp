@@ -69,6 +69,10 @@ class ThermalMap {
   /// was, when a point, an origin or a temperature is not finite or lies further out than kMaxCellKey.
   void integrate(std::span<const MappedReturn> reading, Carving carving);
 
+  /// Adds a temperature to the surface in a cell, seen by a frame whether or not a return hit it at that
+  /// moment; false, with nothing done, where no return ever hit. Throws DataError when it is not finite.
+  bool observe(const CellKey& key, const TemperatureObservation& observation, Time stamp);
+
   /// Adds a map of the same resolution and occupancy model (the map of another mission): log-odds add,
   /// statistics add exactly, so that the order of missions does not matter. Throws ConfigError otherwise.
   void merge(const ThermalMap& other);
