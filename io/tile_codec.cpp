@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::uint8_t kLayout = 1;
 constexpr int kCompressionLevel = 3;
-constexpr int kTileBlocks = kTileEdge * kTileEdge * kTileEdge;
 constexpr std::size_t kSurfaceBytes = 80;
 constexpr std::size_t kMostBytes = 3 + kTileBlocks * (4 + kBlockCells * (2 + 2 + kSurfaceBytes));
 
@@ -46,12 +45,6 @@ void appendBlock(std::string& bytes, int place, const Block& block) {
   appendLittleEndian(bytes, static_cast<std::uint16_t>(block.surfaces.size()));
   for (const std::uint16_t index : block.surface_index) appendLittleEndian(bytes, index);
   for (const SurfaceCell& cell : block.surfaces) appendSurface(bytes, cell);
-}
-
-BlockKey blockAt(const TileKey& tile, int place) {
-  constexpr int mask = kTileEdge - 1;
-  return {tile.x * kTileEdge + (place & mask), tile.y * kTileEdge + ((place >> kTileBits) & mask),
-          tile.z * kTileEdge + (place >> (2 * kTileBits))};
 }
 
 [[noreturn]] void refuse(const TileKey& key, const std::string& fault) {

@@ -8,20 +8,6 @@
 
 namespace thermovox {
 
-/// A station keeps its map in tiles of 8 x 8 x 8 blocks, by the blocks' keys divided by 8, rounded down.
-inline constexpr int kTileBits = 3;
-inline constexpr int kTileEdge = 1 << kTileBits;
-
-struct TileKey {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
-  std::int32_t z = 0;
-  friend auto operator<=>(const TileKey&, const TileKey&) = default;
-};
-[[nodiscard]] inline TileKey tileOf(const BlockKey& key) {
-  return {key.x >> kTileBits, key.y >> kTileBits, key.z >> kTileBits};
-}
-
 /// The blocks of a tile by their keys, ascending.
 using TileBlocks = std::map<BlockKey, Block>;
 

@@ -70,6 +70,32 @@ struct BlockKey {
           block.z * kBlockEdge + (index >> (2 * kBlockBits))};
 }
 
+/// Blocks are kept in tiles of 8 x 8 x 8, and tiles are what a station stores.
+inline constexpr int kTileBits = 3;
+inline constexpr int kTileEdge = 1 << kTileBits;
+inline constexpr int kTileBlocks = kTileEdge * kTileEdge * kTileEdge;
+
+/// Index of a tile: the blocks' keys divided by kTileEdge, rounded down.
+struct TileKey {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  std::int32_t z = 0;
+  friend auto operator<=>(const TileKey&, const TileKey&) = default;
+};
+[[nodiscard]] inline TileKey tileOf(const BlockKey& key) {
+  return {key.x >> kTileBits, key.y >> kTileBits, key.z >> kTileBits};
+}
+/// Place of a block within its tile, x fastest: 0 .. kTileBlocks - 1.
+[[nodiscard]] inline int indexInTile(const BlockKey& key) {
+  constexpr int mask = kTileEdge - 1;
+  return (key.x & mask) | ((key.y & mask) << kTileBits) | ((key.z & mask) << (2 * kTileBits));
+}
+[[nodiscard]] inline BlockKey blockAt(const TileKey& tile, int index) {
+  constexpr int mask = kTileEdge - 1;
+  return {tile.x * kTileEdge + (index & mask), tile.y * kTileEdge + ((index >> kTileBits) & mask),
+          tile.z * kTileEdge + (index >> (2 * kTileBits))};
+}
+
 struct BlockKeyHash {
   [[nodiscard]] std::size_t operator()(const BlockKey& key) const {
     // Three odd constants (as in Teschner et al. 2003), then a finaliser: neighbours must not cluster.
