@@ -30,7 +30,7 @@ struct FrameWindow::Frame {
   /// What a frame needs to colour: made when it is closed, if a return may ask for it.
   struct Sight {
     ThermalView view;
-    DepthSectors depths;
+    std::unique_ptr<Occluder> occluder;
     std::vector<std::uint16_t> samples;  ///< returns that each pixel has coloured
   };
 
@@ -69,21 +69,19 @@ Time FrameWindow::nextStamp() const {
   return frames_[closed_]->frame.stamp;
 }
 
-void FrameWindow::closeNext(const std::function<void(DepthSectors&)>& fill) {
+void FrameWindow::closeNext(const OccluderFor& occluder_for) {
   Frame& frame = *frames_[closed_++];
-  if (!fill || !frame.T_world_camera) return;
+  if (!occluder_for || !frame.T_world_camera) return;
   ThermalView view(frame.frame, *frame.T_world_camera, camera_);
-  DepthSectors depths(camera_.camera, view.T_camera_world, options_.visibility);
-  fill(depths);
-  depths.finish();
+  std::unique_ptr<Occluder> occluder = occluder_for(view);
   std::vector<std::uint16_t> samples(frame.frame.image->celsius.size(), 0);
-  frame.sight = Frame::Sight{std::move(view), std::move(depths), std::move(samples)};
+  frame.sight = Frame::Sight{std::move(view), std::move(occluder), std::move(samples)};
 }
 
 std::variant<FrameColour, Uncoloured> FrameWindow::colourBy(Frame& frame, const PlacedReturn& placed) const {
   if (!frame.T_world_camera) return Uncoloured::no_pose_for_frame;
   if (!frame.sight) return Uncoloured::no_frame;
-  const auto result = thermovox::colour(placed, frame.sight->view, camera_, frame.sight->depths);
+  const auto result = thermovox::colour(placed, frame.sight->view, camera_, *frame.sight->occluder);
   if (const NoColour* reason = std::get_if<NoColour>(&result)) return reasonOf(*reason);
   const Colour& found = std::get<Colour>(result);
   return FrameColour{found, frame.countSample(found.pixel)};

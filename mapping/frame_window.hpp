@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "projection/colouring.hpp"
-#include "projection/depth_sectors.hpp"
+#include "projection/occluder.hpp"
 #include "projection/rig.hpp"
 
 namespace thermovox {
@@ -25,15 +25,17 @@ struct FrameColour {
 };
 
 /// The thermal frames around the returns at hand. A frame comes in, waits until enough laser data after it is
-/// known, is then closed with the depths of what may hide things from it, colours returns, and is dropped.
+/// known, is then closed with what may hide things from it, colours returns, and is dropped.
 /// One that has no return near it costs nothing but its image while it waits.
 class FrameWindow {
  public:
   struct Options {
     Duration limit = Duration::zero();      ///< farthest in time from a return that a frame colours it
     Duration lookahead = Duration::zero();  ///< from a frame's stamp to its closing; at least the limit
-    DepthSectors::Options visibility;
   };
+  /// Makes what says whether anything stands between a frame and a point.
+  using OccluderFor = std::function<std::unique_ptr<Occluder>(const ThermalView& view)>;
+
   /// The camera must outlive the window.
   FrameWindow(const ThermalCamera& camera, const Options& options);
   ~FrameWindow();
@@ -46,8 +48,8 @@ class FrameWindow {
   [[nodiscard]] std::optional<Time> nextDue() const;
   /// Its stamp. Precondition, here and below: nextDue().
   [[nodiscard]] Time nextStamp() const;
-  /// Closes it. `fill` is called to put surface points into its depths; null when no return can ask for it.
-  void closeNext(const std::function<void(DepthSectors&)>& fill);
+  /// Closes it. `occluder_for` is called for what hides things from it; null when no return can ask for it.
+  void closeNext(const OccluderFor& occluder_for);
 
   /// The temperature of a return from the closed frame nearest in time that sees it. A return that the
   /// nearest frame does not see may take it from another within the limit; if none sees it, the nearest says

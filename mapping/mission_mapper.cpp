@@ -75,7 +75,7 @@ MissionMapper::MissionMapper(const Mission& mission, ThermalMap& map, const Opti
   report_.mission = mission.name;
   if (mission.rig.thermal_camera) {
     frames_.emplace(*mission.rig.thermal_camera,
-                    FrameWindow::Options{options_.frame_limit, options_.lookahead, options_.visibility});
+                    FrameWindow::Options{options_.frame_limit, options_.lookahead});
   }
 }
 
@@ -154,11 +154,15 @@ void MissionMapper::closeFrame() {
            stamp <= reading.last_stamp + options_.frame_limit;
   });
   if (!wanted) return frames_->closeNext(nullptr);
-  frames_->closeNext([this](DepthSectors& depths) {
-    addSurfacesInView(map_, depths.T_camera_world(), depths);
+  frames_->closeNext([this](const ThermalView& view) -> std::unique_ptr<Occluder> {
+    const Camera& camera = mission_.rig.thermal_camera->camera;
+    auto depths = std::make_unique<DepthSectors>(camera, view.T_camera_world, options_.visibility);
+    addSurfacesInView(map_, view.T_camera_world, *depths);
     for (const WaitingReading& reading : readings_) {
-      for (const PlacedReturn& placed : reading.returns) depths.add(placed.p_world);
+      for (const PlacedReturn& placed : reading.returns) depths->add(placed.p_world);
     }
+    depths->finish();
+    return depths;
   });
 }
 

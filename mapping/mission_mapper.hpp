@@ -11,6 +11,7 @@
 #include "mapping/frame_window.hpp"
 #include "mapping/mission_report.hpp"
 #include "mapping/thermal_map.hpp"
+#include "projection/depth_sectors.hpp"
 #include "projection/mission.hpp"
 #include "projection/sources.hpp"
 
