@@ -1,127 +1,130 @@
-// Inserting readings with all their free space: the thermal map, temperatures and all, against OctoMap's
-// insertPointCloud in the same run. Rates are points per second of processor time.
+// Inserting scans, with all their free space and without it: the thermal map, temperatures and all, against
+// its peers in the same run. The time of a row is processor time of all threads together; of several
+// iterations the median counts. Rows of the table of mapping/README.md (run.sh) are these.
 
 #include <benchmark/benchmark.h>
-#include <octomap/OcTree.h>
 
-#include <cmath>
-#include <filesystem>
-#include <numbers>
-#include <vector>
+#include <algorithm>
+#include <map>
+#include <string>
 
-#include "mapping/thermal_map.hpp"
-#include "tests/support/recorded_scan.hpp"
+#include "tests/benchmark/workloads.hpp"
 
-namespace thermovox {
+namespace thermovox::bench {
 namespace {
 
-using Readings = std::vector<std::vector<MappedReturn>>;
+/// One row: an engine and what it inserts.
+struct Row {
+  std::string workload;
+  std::string engine;
+  Workload (*make_workload)();
+  EnginePointer (*make_engine)(double resolution);
+  int iterations = 1;
+};
 
-const Eigen::Vector3d kHalfSize(30.0, 15.0, 6.0);  // metres
-constexpr double kRackSpacing = 8.0, kRackHalfWidth = 0.6, kRackTop = 2.0;
-
-/// Distance along the ray to the slab -half..half of one axis about `center`: where it enters and leaves.
-std::pair<double, double> slab(double origin, double direction, double center, double half) {
-  const double a = (center - half - origin) / direction, b = (center + half - origin) / direction;
-  return {std::min(a, b), std::max(a, b)};
+/// Points a second of processor time of the rows measured so far, by workload and engine.
+std::map<std::pair<std::string, std::string>, double>& rates() {
+  static std::map<std::pair<std::string, std::string>, double> rates;
+  return rates;
 }
 
-/// Distance to the hall's walls, or to one of its four rows of racks along x.
-double rangeInHall(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
-  double range = 1e9;
-  for (int i = 0; i < 3; ++i)
-    range = std::min(range, slab(origin[i], direction[i], 0.0, kHalfSize[i]).second);
-  for (double y = -1.5 * kRackSpacing; y < kHalfSize.y(); y += kRackSpacing) {
-    const auto [x_in, x_out] = slab(origin.x(), direction.x(), 0.0, 25.0);
-    const auto [y_in, y_out] = slab(origin.y(), direction.y(), y, kRackHalfWidth);
-    const auto [z_in, z_out] = slab(origin.z(), direction.z(), -kHalfSize.z(), kRackTop + kHalfSize.z());
-    const double in = std::max({x_in, y_in, z_in});
-    if (in > 0.0 && in < std::min({x_out, y_out, z_out})) range = std::min(range, in);
-  }
-  return range;
+/// The rate over that of a peer measured before in this run, where there is one.
+void compare(benchmark::State& state, const Row& row, const std::string& peer) {
+  const auto found = rates().find({row.workload, peer});
+  if (found != rates().end() && row.engine != peer)
+    state.counters["times_" + peer] = rates().at({row.workload, row.engine}) / found->second;
 }
 
-/// Sweeps of 64 x 1024 beams within +-45 degrees of the horizon along the hall, every point with a
-/// temperature.
-Readings hallSweeps(int sweeps) {
-  Readings readings;
-  for (int s = 0; s < sweeps; ++s) {
-    const Eigen::Vector3d origin(-25.0 + 50.0 * s / sweeps, 0.3 + 0.1 * s, -1.0);
-    std::vector<MappedReturn> reading;
-    for (int ring = 0; ring < 64; ++ring) {
-      for (int column = 0; column < 1024; ++column) {
-        const double azimuth = (column + 0.37) * 2.0 * std::numbers::pi / 1024;
-        const double elevation = (ring - 31.5) / 64 * std::numbers::pi / 2;
-        const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
-                                        std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-        const double range = rangeInHall(origin, direction);
-        const TemperatureObservation seen{static_cast<float>(20.0 + column % 7), 0.1F,
-                                          static_cast<float>(range), 0.3F};
-        reading.push_back({origin + range * direction, origin, Time(std::chrono::seconds(s)), seen});
-      }
-    }
-    readings.push_back(std::move(reading));
-  }
-  return readings;
+void report(benchmark::State& state, const Row& row, const Measurement& m) {
+  rates()[{row.workload, row.engine}] = m.points / m.cpu_s;
+  state.counters["points_per_cpu_s"] = m.points / m.cpu_s;
+  state.counters["points_per_s"] = m.points / m.wall_s;
+  state.counters["points_per_busier_half_s"] = m.points / m.busier_half_s;
+  state.counters["known_cells"] = m.cells.known;
+  state.counters["surface_cells"] = m.cells.surface;
+  state.counters["MB"] = 1e-6 * m.memory_bytes;
+  state.counters["peak_MB"] = 1e-6 * m.peak_bytes;
+  state.counters["bytes_per_known_cell"] = m.memory_bytes / m.cells.known;
+  state.counters["bytes_per_surface_cell"] = m.memory_bytes / m.cells.surface;
+  for (const char* peer : {"octomap", "openvdb", "block_floor"}) compare(state, row, peer);
 }
 
-const Readings& hall() {
-  static const Readings readings = hallSweeps(4);
-  return readings;
-}
-
-/// One recorded sweep, empty where the recordings are not there.
-const Readings& recorded() {
-  static const Readings readings = [] {
-    const std::vector<MappedReturn> scan =
-        test::recordings() ? test::recordedScan() : std::vector<MappedReturn>{};
-    return Readings{scan};
-  }();
-  return readings;
-}
-
-octomap::point3d octomapPoint(const Eigen::Vector3d& p) {
-  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
-}
-
-void insertIntoThermalMap(benchmark::State& state, const Readings& readings, double resolution,
-                          Carving carving) {
-  std::size_t points = 0;
+void insert(benchmark::State& state, const Row& row) {
+  const Workload workload = row.make_workload();
+  if (workload.scans == 0) return state.SkipWithError("the recordings are not there");
+  static_cast<void>(workload.scan(0));  // makes it, once for all rows
+  std::vector<Measurement> runs;
   for (auto _ : state) {
-    ThermalMap map({.resolution = resolution});
-    for (const auto& reading : readings) {
-      map.integrate(reading, carving);
-      points += reading.size();
-    }
-    benchmark::DoNotOptimize(map.blockCount());
+    runs.push_back(measureInChild([&] { return row.make_engine(workload.resolution); }, workload));
+    state.SetIterationTime(runs.back().cpu_s);
   }
-  state.counters["points/s"] = benchmark::Counter(static_cast<double>(points), benchmark::Counter::kIsRate);
+  const auto median = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+  std::nth_element(runs.begin(), median, runs.end(),
+                   [](const Measurement& a, const Measurement& b) { return a.cpu_s < b.cpu_s; });
+  report(state, row, *median);
 }
 
-void insertIntoOctomap(benchmark::State& state, const Readings& readings, double resolution) {
-  std::size_t points = 0;
-  for (auto _ : state) {
-    octomap::OcTree tree(resolution);
-    for (const auto& reading : readings) {
-      octomap::Pointcloud cloud;
-      for (const MappedReturn& ret : reading) cloud.push_back(octomapPoint(ret.p_world));
-      if (!reading.empty()) tree.insertPointCloud(cloud, octomapPoint(reading[0].origin_world));
-      points += reading.size();
-    }
-    benchmark::DoNotOptimize(tree.size());
-  }
-  state.counters["points/s"] = benchmark::Counter(static_cast<double>(points), benchmark::Counter::kIsRate);
+template <Carving carving>
+EnginePointer thermovoxWith(double resolution) {
+  return thermalMapEngine(resolution, carving);
 }
 
-#define THERMOVOX_INSERTION(name, readings, resolution)                                   \
-  BENCHMARK_CAPTURE(insertIntoThermalMap, name, readings(), resolution, Carving::octomap) \
-      ->Unit(benchmark::kMillisecond);                                                    \
-  BENCHMARK_CAPTURE(insertIntoOctomap, name, readings(), resolution)->Unit(benchmark::kMillisecond)
+struct NamedWorkload {
+  std::string name;
+  Workload (*make)();
+  bool slow = false;  ///< too slow a peer is left out, or measured once
+};
 
-THERMOVOX_INSERTION(hall_0_1_m, hall, 0.1);
-THERMOVOX_INSERTION(recorded_scan_0_1_m, recorded, 0.1);
-BENCHMARK_CAPTURE(insertIntoThermalMap, hall_0_1_m_hits_only, hall(), 0.1, Carving::none)
-    ->Unit(benchmark::kMillisecond);
+/// All cells between the laser and its returns are freed.
+std::vector<Row> carvingRows() {
+  const std::vector<NamedWorkload> workloads = {
+      {"carving/hall_0.1_m", [] { return coldHall(0.1, 8); }},
+      {"carving/hall_0.05_m", [] { return coldHall(0.05, 4); }},
+      {"carving/recorded_scan_0.1_m", [] { return recordedBuilding(0.1); }}};
+  std::vector<Row> rows;
+  for (const auto& [name, make, slow] : workloads) {
+    rows.push_back({name, "octomap", make, octomapRays});
+#ifdef THERMOVOX_OPENVDB
+    rows.push_back({name, "openvdb", make, openvdbRays, 3});
+#endif
+    rows.push_back({name, "thermovox", make, thermovoxWith<Carving::octomap>, 3});
+  }
+  return rows;
+}
+
+/// Only the cells that hold a return.
+std::vector<Row> surfaceRows() {
+  const std::vector<NamedWorkload> workloads = {
+      {"surfaces/cold_hall_0.1_m", [] { return coldHall(0.1, 8); }},
+      {"surfaces/warm_hall_0.1_m", [] { return warmHall(0.1, 200); }, true},
+      {"surfaces/cold_hall_0.05_m", [] { return coldHall(0.05, 8); }},
+      {"surfaces/warm_hall_0.05_m", [] { return warmHall(0.05, 200); }, true}};
+  std::vector<Row> rows;
+  for (const auto& [name, make, slow] : workloads) {
+    const int once_or_thrice = slow ? 1 : 3;
+    rows.push_back({name, "octomap", make, octomapPoints, once_or_thrice});
+    rows.push_back({name, "color_octomap", make, colorOctomapPoints, once_or_thrice});
+#ifdef THERMOVOX_OPENVDB
+    rows.push_back({name, "openvdb", make, openvdbPoints, 3});
+#endif
+    rows.push_back({name, "block_floor", make, blockFloor, 3});
+    rows.push_back({name, "thermovox", make, thermovoxWith<Carving::none>, 3});
+  }
+  return rows;
+}
+
+[[maybe_unused]] const bool registered = [] {
+  for (const auto& rows : {carvingRows(), surfaceRows()}) {
+    for (const Row& row : rows) {
+      benchmark::RegisterBenchmark((row.workload + "/" + row.engine).c_str(),
+                                   [row](benchmark::State& state) { insert(state, row); })
+          ->UseManualTime()
+          ->Iterations(row.iterations)
+          ->Unit(benchmark::kMillisecond);
+    }
+  }
+  return true;
+}();
 
 }  // namespace
-}  // namespace thermovox
+}  // namespace thermovox::bench
