@@ -49,6 +49,13 @@ class LittleEndianReader {
     bytes_.remove_prefix(sizeof(T));
     return std::bit_cast<T>(static_cast<detail::UnsignedOf<sizeof(T)>>(bits));
   }
+  /// The next `count` bytes as they are; nullopt when fewer are left.
+  [[nodiscard]] std::optional<std::string_view> nextBytes(std::size_t count) {
+    if (bytes_.size() < count) return std::nullopt;
+    const std::string_view taken = bytes_.substr(0, count);
+    bytes_.remove_prefix(count);
+    return taken;
+  }
   [[nodiscard]] std::size_t left() const { return bytes_.size(); }
 
  private:

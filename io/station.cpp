@@ -48,7 +48,7 @@ TileBlocks decode(const TileKey& key, std::string_view bytes, const fs::path& pa
 
 std::int64_t surfacesIn(const TileBlocks& blocks) {
   std::int64_t count = 0;
-  for (const auto& [key, block] : blocks) count += static_cast<std::int64_t>(block.surfaces.size());
+  for (const auto& [key, block] : blocks) count += static_cast<std::int64_t>(block.surfaceCount());
   return count;
 }
 

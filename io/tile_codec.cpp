@@ -2,7 +2,9 @@
 
 #include <zstd.h>
 
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <memory>
 
 #include "io/little_endian.hpp"
@@ -12,39 +14,24 @@ namespace thermovox {
 namespace {
 
 // A tile, before compression: the layout's number (u8), how many blocks (u16), and for each its place in the
-// tile (u16, x fastest, ascending), 512 log-odds (i16), how many surfaces (u16), their cells (u16 each,
-// ascending), and the surfaces, field by field as appendSurface has them.
+// tile (u16, x fastest, ascending), 512 log-odds (i16), a bit for each cell that holds a surface (8 x u64),
+// and the surfaces in the order of their cells as they lie in memory (SurfaceCell, packed, little endian).
 
-constexpr std::uint8_t kLayout = 1;
+constexpr std::uint8_t kLayout = 2;
 constexpr int kCompressionLevel = 3;
-constexpr std::size_t kSurfaceBytes = 80;
-constexpr std::size_t kMostBytes = 3 + kTileBlocks * (4 + kBlockCells * (2 + 2 + kSurfaceBytes));
+constexpr std::size_t kSurfaceBytes = sizeof(SurfaceCell);
+constexpr std::size_t kMostBytes = 3 + kTileBlocks * (4 + kBlockCells * (2 + 1 + kSurfaceBytes));
 
 struct FreeCompressor {
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
 };
 
-void appendSurface(std::string& bytes, const SurfaceCell& cell) {
-  appendLittleEndian(bytes, cell.weight_sum);
-  appendLittleEndian(bytes, cell.first_ns);
-  appendLittleEndian(bytes, cell.last_ns);
-  for (const std::uint32_t word : cell.weighted_sum.words) appendLittleEndian(bytes, word);
-  for (const std::uint32_t word : cell.weighted_square_sum.words) appendLittleEndian(bytes, word);
-  for (const std::uint32_t sum : cell.offset_sum) appendLittleEndian(bytes, sum);
-  appendLittleEndian(bytes, cell.returns);
-  appendLittleEndian(bytes, cell.observations);
-  appendLittleEndian(bytes, cell.min_celsius);
-  appendLittleEndian(bytes, cell.max_celsius);
-  appendLittleEndian(bytes, cell.best_range_cm);
-  appendLittleEndian(bytes, cell.best_incidence);
-}
-
 void appendBlock(std::string& bytes, int place, const Block& block) {
   appendLittleEndian(bytes, static_cast<std::uint16_t>(place));
-  for (const LogOdds log_odds : block.log_odds) appendLittleEndian(bytes, log_odds);
-  appendLittleEndian(bytes, static_cast<std::uint16_t>(block.surfaces.size()));
-  for (const std::uint16_t index : block.surface_index) appendLittleEndian(bytes, index);
-  for (const SurfaceCell& cell : block.surfaces) appendSurface(bytes, cell);
+  for (int i = 0; i < kBlockCells; ++i) appendLittleEndian(bytes, block.log_odds[i]);
+  for (const std::uint64_t word : block.surfaceMask()) appendLittleEndian(bytes, word);
+  const std::span<const SurfaceCell> surfaces = block.surfaces();
+  bytes.append(reinterpret_cast<const char*>(surfaces.data()), surfaces.size_bytes());
 }
 
 [[noreturn]] void refuse(const TileKey& key, const std::string& fault) {
@@ -118,33 +105,20 @@ class TileReader {
 
   Block block() {
     Block block;
-    fill(block.log_odds);
-    const int count = countUpTo(next<std::uint16_t>(), kBlockCells, "surfaces");
-    int last_index = -1;
-    for (int i = 0; i < count; ++i) {
-      last_index = ascending(last_index, kBlockCells, "surfaces");
-      block.surface_index.push_back(static_cast<std::uint16_t>(last_index));
+    for (int i = 0; i < kBlockCells; ++i) block.log_odds.set(i, next<LogOdds>());
+    CellBits mask{};
+    fill(mask);
+    int count = 0;
+    for (const std::uint64_t word : mask) count += std::popcount(word);
+    std::vector<SurfaceCell> surfaces(static_cast<std::size_t>(count));
+    const auto packed = reader_.nextBytes(surfaces.size() * sizeof(SurfaceCell));
+    if (!packed) refuse(key_, "it ends too early");
+    std::memcpy(surfaces.data(), packed->data(), packed->size());
+    for (const SurfaceCell& cell : surfaces) {
+      if (!cell.isPlausible()) refuse(key_, "a surface cell contradicts itself");
     }
-    for (int i = 0; i < count; ++i) block.surfaces.push_back(surface());
+    block.setSurfaces(mask, std::move(surfaces));
     return block;
-  }
-
-  SurfaceCell surface() {
-    SurfaceCell cell;
-    cell.weight_sum = next<std::uint64_t>();
-    cell.first_ns = next<std::int64_t>();
-    cell.last_ns = next<std::int64_t>();
-    fill(cell.weighted_sum.words);
-    fill(cell.weighted_square_sum.words);
-    fill(cell.offset_sum);
-    cell.returns = next<std::uint32_t>();
-    cell.observations = next<std::uint32_t>();
-    cell.min_celsius = next<float>();
-    cell.max_celsius = next<float>();
-    cell.best_range_cm = next<std::uint16_t>();
-    cell.best_incidence = next<std::uint16_t>();
-    if (!cell.isPlausible()) refuse(key_, "a surface cell contradicts itself");
-    return cell;
   }
 
   TileKey key_;

@@ -52,7 +52,7 @@ void forEachKnown(const ThermalMap& map, Visitor&& visit) {
   for (const BlockKey& block_key : map.sortedBlockKeys()) {
     const Block& block = *map.block(block_key);
     for (int index = 0; index < kBlockCells; ++index) {
-      if (block.log_odds[static_cast<std::size_t>(index)] == kUnknown) continue;
+      if (block.log_odds[index] == kUnknown) continue;
       visit(octomapKey(cellAt(block_key, index)), index, block);
     }
   }
@@ -71,8 +71,7 @@ std::unique_ptr<Tree> emptyTree(const ThermalMap& map) {
 }
 
 float treeLogOdds(const ThermalMap& map, const Block& block, int index) {
-  return static_cast<float>(
-      map.occupancyModel().naturalLogOdds(block.log_odds[static_cast<std::size_t>(index)]));
+  return static_cast<float>(map.occupancyModel().naturalLogOdds(block.log_odds[index]));
 }
 
 /// OctoMap keeps probabilities as 32-bit log-odds; six decimals bring back what was set.
@@ -140,7 +139,7 @@ ThermalMap fromOcTree(const octomap::OcTree& tree) {
     for (std::int32_t z = corner.z; z < corner.z + edge; ++z) {
       for (std::int32_t y = corner.y; y < corner.y + edge; ++y) {
         for (std::int32_t x = corner.x; x < corner.x + edge; ++x) {
-          blocks[blockOf({x, y, z})].log_odds[static_cast<std::size_t>(indexInBlock({x, y, z}))] = log_odds;
+          blocks[blockOf({x, y, z})].log_odds.set(indexInBlock({x, y, z}), log_odds);
         }
       }
     }

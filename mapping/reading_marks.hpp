@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mapping/cell_key.hpp"
+#include "mapping/block.hpp"
 
 namespace thermovox {
 
@@ -12,8 +12,7 @@ namespace thermovox {
 /// thousands of rays cross is updated once and the map is touched once a block.
 class ReadingMarks {
  public:
-  /// One bit a cell: bit x + 8 y of word z.
-  using Bits = std::array<std::uint64_t, kBlockEdge>;
+  using Bits = CellBits;
   struct Tile {
     BlockKey key;
     Bits free{};  ///< passed by a ray; where `hit` is set too, the hit counts
@@ -35,7 +34,7 @@ class ReadingMarks {
     const int index = indexInBlock(key);
     const BlockKey block = blockOf(key);
     if (tiles_.empty() || tiles_[last_].key != block) last_ = find(block);
-    (tiles_[last_].*bits)[index >> 6] |= std::uint64_t{1} << (index & 63);
+    (tiles_[last_].*bits)[static_cast<std::size_t>(index >> 6)] |= std::uint64_t{1} << (index & 63);
   }
   [[nodiscard]] std::uint32_t find(const BlockKey& key);
   [[nodiscard]] std::size_t slotOf(const BlockKey& key) const;

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "mapping/cell_key.hpp"
-#include "mapping/sum96.hpp"
+#include "mapping/packed_integer.hpp"
 #include "projection/time.hpp"
 
 namespace thermovox {
@@ -18,42 +18,45 @@ struct TemperatureObservation {
   float incidence = 0.0F;  ///< angle between the line of sight and the surface's normal, radians; NaN unknown
 };
 
-/// What a cell knows of the surface in it. All sums are integers in fixed point, so that adding is exact and
-/// the result does not depend on the order (West's and Chan's updates would, in the last bits).
+/// What a cell knows of the surface in it, in 57 bytes. All sums are integers in fixed point, so that adding
+/// is exact and the result does not depend on the order (West's and Chan's updates would, in the last bits).
 /// observations == 0 is the ONLY test for "no temperature": 0 C is one.
 ///
 /// Units, and why nothing overflows: a temperature is taken within [-273.15, 3000] C and counted from -274 C
-/// in 2^-16 C, so t < 2^27.7; a sigma is taken within [0.01, 100] C and its weight 1 / sigma^2 counted in
-/// 2^-18 / C^2, so w <= 10^4 * 2^18 < 2^31.3. Over 2^32 observations w adds up to less than 2^63.3 (64 bits),
-/// w t to less than 2^91 (96 bits) and w t^2 / 2^24 to less than 2^94.7 (96 bits). The bits that w t^2 loses
-/// are worth at most 2^-8 C^2 / w: 1e-4 C^2 where sigma is 100 C, 1e-12 where it is 0.01.
+/// in 2^-9 C (2 mK, a tenth of what the best uncooled camera tells apart), so t < 2^20.68; a sigma is taken
+/// within [0.02, 32] C and its weight 1 / sigma^2 counted in 2^-10 / C^2, so 1 <= w < 2^21.29. Over 2^22
+/// observations w adds up to less than 2^43.3 (6 bytes), w t to less than 2^63.97 and w t^2 / 2^21 to less
+/// than 2^63.7 (8 bytes each). What w t^2 is rounded by is at most 4 C^2 / w, 0.4 % of sigma^2, and without
+/// bias.
 struct SurfaceCell {
   static constexpr double kMinCelsius = -273.15, kMaxCelsius = 3000.0;
-  static constexpr double kMinSigma = 0.01, kMaxSigma = 100.0;
+  static constexpr double kMinSigma = 0.02, kMaxSigma = 32.0;
   /// Returns after which a cell's mean position stands still (its sums hold no more).
-  static constexpr std::uint32_t kMaxReturns = 1U << 24;
+  static constexpr std::uint32_t kMaxReturns = (1U << 24) - 1;
+  /// Observations after which its temperature does: five days without a pause at 9 Hz.
+  static constexpr std::uint32_t kMaxObservations = 1U << 22;
 
   /// The view with the most pixels on the cell.
   struct View {
     float range;      ///< camera to point, metres, to the centimetre; 655.35 at most
-    float incidence;  ///< radians, to 1e-4; NaN unknown
+    float incidence;  ///< radians, to 1/100; NaN unknown
   };
 
-  std::uint64_t weight_sum = 0;  ///< of w
-  std::int64_t first_ns = 0;     ///< stamp of the first temperature
-  std::int64_t last_ns = 0;      ///< and of the last
-  Sum96 weighted_sum;            ///< of w t
-  Sum96 weighted_square_sum;     ///< of w t^2 / 2^24
+  PackedInteger<8> weighted_sum;         ///< of w t
+  PackedInteger<8> weighted_square_sum;  ///< of w t^2 / 2^21
+  PackedInteger<6> weight_sum;           ///< of w
+  PackedInteger<6> last_code;            ///< stamp of the last temperature, in 2^15 ns (33 us)
   /// Sum over the returns of their place within the cell, in 1/256 of the cell's edge, rounded down.
-  std::array<std::uint32_t, 3> offset_sum{};
-  std::uint32_t returns = 0;       ///< laser returns that hit the cell
-  std::uint32_t observations = 0;  ///< temperatures
-  float min_celsius = 0.0F;
-  float max_celsius = 0.0F;
-  std::uint16_t best_range_cm = 0;
-  std::uint16_t best_incidence = 0;  ///< 1e-4 radians; kUnknownIncidence
+  std::array<PackedInteger<4>, 3> offset_sum;
+  PackedInteger<4> first_code;    ///< stamp of the first temperature, in 2^31 ns (2.1 s)
+  PackedInteger<3> returns;       ///< laser returns that hit the cell; 0 where this mission only painted it
+  PackedInteger<3> observations;  ///< temperatures
+  PackedInteger<2> min_code;      ///< lowest temperature, in 1/16 C from -274 C
+  PackedInteger<2> max_code;      ///< highest
+  PackedInteger<2> best_range_cm;
+  PackedInteger<1> best_incidence;  ///< 1/100 radians; kUnknownIncidence
 
-  static constexpr std::uint16_t kUnknownIncidence = 0xFFFF;
+  static constexpr std::uint8_t kUnknownIncidence = 0xFF;
 
   /// Adds a laser return at `offset` within the cell, in edges: [0, 1) on each axis, clamped to it.
   void addReturn(const Eigen::Vector3d& offset);
@@ -67,16 +70,16 @@ struct SurfaceCell {
   void addTemperature(const TemperatureObservation& observation, Time stamp);
 
   /// Adds another mission's statistics of the same cell: exact, in any order and grouping, the mean position
-  /// up to kMaxReturns returns and the mean temperature up to 2^32 - 1 observations. Where the two together
-  /// hold more, nothing wraps: the sums of the one that counted more stand for both.
+  /// up to kMaxReturns returns and the mean temperature up to kMaxObservations. Where the two together hold
+  /// more, nothing wraps: the sums of the one that counted more stand for both.
   void merge(const SurfaceCell& other);
 
-  /// Whether the fields fit together, as they do in every cell that a return hit and that was built by the
-  /// functions above: the counts and codes are possible, no sum is more than its count can give, the mean
-  /// lies between the extremes, and no moment contradicts another. For cells that come from a file.
+  /// Whether the fields fit together, as they do in every cell that was built by the functions above: the
+  /// counts and codes are possible, no sum is more than its count can give, the mean lies between the
+  /// extremes, and no moment contradicts another. For cells that come from a file.
   [[nodiscard]] bool isPlausible() const;
 
-  /// Mean place of the returns within the cell, in edges. Precondition: returns > 0.
+  /// Mean place of the returns within the cell, in edges; its centre where no return was counted.
   [[nodiscard]] Eigen::Vector3d meanOffset() const;
   /// Weighted mean, C. Precondition for this and all below: observations > 0.
   [[nodiscard]] double mean() const;
@@ -95,19 +98,26 @@ struct SurfaceCell {
   [[nodiscard]] double sigmaOfMean() const;
   /// Weighted standard deviation of the observations about their mean, C.
   [[nodiscard]] double spread() const;
-  [[nodiscard]] Time first() const { return Time(Duration(first_ns)); }
-  [[nodiscard]] Time last() const { return Time(Duration(last_ns)); }
+  [[nodiscard]] double minCelsius() const;  ///< to 1/32 C
+  [[nodiscard]] double maxCelsius() const;  ///< to 1/32 C
+  [[nodiscard]] Time first() const;         ///< at most 2.2 s early
+  [[nodiscard]] Time last() const;          ///< at most 33 us early
   [[nodiscard]] View bestView() const;
 
-  friend bool operator==(const SurfaceCell&, const SurfaceCell&) = default;
+  friend bool operator==(const SurfaceCell& a, const SurfaceCell& b) {
+    return std::memcmp(&a, &b, sizeof(SurfaceCell)) == 0;
+  }
 
  private:
   /// Observations, weights and moments; of two too many for one cell the busier one's.
   void addSums(const SurfaceCell& other);
+  /// 1, or less for an observation that is far off.
+  [[nodiscard]] double guardedShare(double celsius, double sigma) const;
   [[nodiscard]] bool hasPlausibleTemperature() const;
-  /// Weighted mean of the squares, counted from -274 C.
+  /// Weighted mean and mean of the squares, counted from -274 C.
+  [[nodiscard]] double meanFromZero() const;
   [[nodiscard]] double meanSquare() const;
 };
-static_assert(sizeof(SurfaceCell) == 80);
+static_assert(sizeof(SurfaceCell) == 57 && alignof(SurfaceCell) == 1);
 
 }  // namespace thermovox

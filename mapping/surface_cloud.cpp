@@ -31,7 +31,7 @@ SurfacePoint surfacePoint(const ThermalMap& map, const CellKey& key, const Surfa
                    floatInCell(p_world.z(), key.z, resolution)};
   if (cell.observations > 0) {
     point.temperature = {static_cast<float>(cell.mean()), static_cast<float>(cell.sigmaOfMean()),
-                         cell.observations, toUnixSeconds(cell.last())};
+                         static_cast<std::uint32_t>(cell.observations), toUnixSeconds(cell.last())};
   }
   return point;
 }

@@ -16,16 +16,15 @@ void addSurfacesInView(const ThermalMap& map, const Pose& T_camera_world, DepthS
   const double block_edge = map.resolution() * kBlockEdge;
   const double radius = 0.5 * std::sqrt(3.0) * block_edge;
   map.forEachBlock([&](const BlockKey& key, const Block& block) {
-    if (block.surfaces.empty()) return;
+    if (block.surfaceCount() == 0) return;
     const Eigen::Vector3d corner = Eigen::Vector3d(key.x, key.y, key.z) * block_edge;
     if (!mayBeInFront(T_camera_world * (corner + Eigen::Vector3d::Constant(0.5 * block_edge)), radius))
       return;
-    for (std::size_t i = 0; i < block.surfaces.size(); ++i) {
-      if (!map.occupancyModel().isOccupied(block.log_odds[block.surface_index[i]])) continue;
-      const CellKey cell = cellAt(key, block.surface_index[i]);
-      const Eigen::Vector3d place = Eigen::Vector3d(cell.x, cell.y, cell.z) + block.surfaces[i].meanOffset();
-      depths.add(place * map.resolution());
-    }
+    block.forEachSurface([&](int index, const SurfaceCell& surface) {
+      if (!map.occupancyModel().isOccupied(block.log_odds[index])) return;
+      const CellKey cell = cellAt(key, index);
+      depths.add((Eigen::Vector3d(cell.x, cell.y, cell.z) + surface.meanOffset()) * map.resolution());
+    });
   });
 }
 

@@ -15,11 +15,13 @@ bool isWithin(const Eigen::Vector3d& p_world, double reach) {
   return p_world.cwiseAbs().maxCoeff() < reach && p_world.allFinite();
 }
 
-/// One step for every cell whose bit is set; `log_odds` are the 64 cells of one layer.
-void update(LogOdds* log_odds, std::uint64_t bits, int step, const OccupancyModel& model) {
-  for (; bits != 0; bits &= bits - 1) {
-    LogOdds& cell = log_odds[std::countr_zero(bits)];
-    cell = model.updated(cell, step);
+/// One step for every cell whose bit is set.
+void update(BlockLogOdds& log_odds, const CellBits& cells, int step, const OccupancyModel& model) {
+  for (std::size_t word = 0; word < cells.size(); ++word) {
+    for (std::uint64_t bits = cells[word]; bits != 0; bits &= bits - 1) {
+      const int index = static_cast<int>(64 * word) + std::countr_zero(bits);
+      log_odds.set(index, model.updated(log_odds[index], step));
+    }
   }
 }
 
@@ -29,28 +31,6 @@ Eigen::Vector3d offsetInCell(const Eigen::Vector3d& p_world, const CellKey& key,
 }
 
 }  // namespace
-
-const SurfaceCell* Block::surface(int index) const {
-  const auto found = std::lower_bound(surface_index.begin(), surface_index.end(), index);
-  if (found == surface_index.end() || *found != index) return nullptr;
-  return &surfaces[static_cast<std::size_t>(found - surface_index.begin())];
-}
-
-SurfaceCell& Block::surfaceOrNew(int index) {
-  const auto found = std::lower_bound(surface_index.begin(), surface_index.end(), index);
-  const auto place = surfaces.begin() + (found - surface_index.begin());
-  if (found != surface_index.end() && *found == index) return *place;
-  surface_index.insert(found, static_cast<std::uint16_t>(index));
-  return *surfaces.insert(place, SurfaceCell{});
-}
-
-void Block::merge(const Block& other) {
-  for (std::size_t i = 0; i < log_odds.size(); ++i)
-    log_odds[i] = addedLogOdds(log_odds[i], other.log_odds[i]);
-  for (std::size_t i = 0; i < other.surfaces.size(); ++i) {
-    surfaceOrNew(other.surface_index[i]).merge(other.surfaces[i]);
-  }
-}
 
 void ThermalMap::Options::validate() const {
   if (!(resolution >= 1e-4 && resolution <= 1e3)) {
@@ -100,11 +80,10 @@ void ThermalMap::updateOccupancy(std::span<const MappedReturn> reading, Carving 
   }
   for (const ReadingMarks::Tile& tile : marks_.sortedTiles()) {
     Block& block = blockOrNew(tile.key);
-    for (std::size_t layer = 0; layer < tile.hit.size(); ++layer) {
-      LogOdds* log_odds = block.log_odds.data() + 64 * layer;
-      update(log_odds, tile.free[layer] & ~tile.hit[layer], model_.miss(), model_);
-      update(log_odds, tile.hit[layer], model_.hit(), model_);
-    }
+    CellBits free = tile.free;
+    for (std::size_t word = 0; word < free.size(); ++word) free[word] &= ~tile.hit[word];
+    update(block.log_odds, free, model_.miss(), model_);
+    update(block.log_odds, tile.hit, model_.hit(), model_);
   }
   marks_.clear();
 }
@@ -142,14 +121,14 @@ Eigen::Vector3d ThermalMap::centerOf(const CellKey& key) const {
 
 Occupancy ThermalMap::occupancy(const CellKey& key) const {
   const Block* found = block(blockOf(key));
-  const LogOdds log_odds = found ? found->log_odds[static_cast<std::size_t>(indexInBlock(key))] : kUnknown;
+  const LogOdds log_odds = found ? found->log_odds[indexInBlock(key)] : kUnknown;
   if (log_odds == kUnknown) return Occupancy::unknown;
   return model_.isOccupied(log_odds) ? Occupancy::occupied : Occupancy::free;
 }
 
 std::optional<double> ThermalMap::logOdds(const CellKey& key) const {
   const Block* found = block(blockOf(key));
-  const LogOdds log_odds = found ? found->log_odds[static_cast<std::size_t>(indexInBlock(key))] : kUnknown;
+  const LogOdds log_odds = found ? found->log_odds[indexInBlock(key)] : kUnknown;
   if (log_odds == kUnknown) return std::nullopt;
   return model_.naturalLogOdds(log_odds);
 }
@@ -161,7 +140,7 @@ const SurfaceCell* ThermalMap::surface(const CellKey& key) const {
 
 std::size_t ThermalMap::surfaceCount() const {
   std::size_t count = 0;
-  for (const auto& [key, block] : blocks_) count += block->surfaces.size();
+  for (const auto& [key, block] : blocks_) count += block->surfaceCount();
   return count;
 }
 

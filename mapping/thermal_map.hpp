@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mapping/block.hpp"
 #include "mapping/cell_key.hpp"
 #include "mapping/occupancy_model.hpp"
 #include "mapping/reading_marks.hpp"
@@ -27,23 +28,6 @@ struct MappedReturn {
 enum class Carving {
   none,     ///< none: surfaces only
   octomap,  ///< every cell between the laser and the return, as OctoMap's insertPointCloud does
-};
-
-/// 8 x 8 x 8 cells: log-odds for all, statistics only for those that held a surface.
-struct Block {
-  /// Log-odds in quanta of the map's OccupancyModel; kUnknown where no ray ever was. Clamped within a
-  /// mission, the plain sum over missions.
-  std::array<LogOdds, kBlockCells> log_odds;
-  /// Statistics of the cells in `surface_index`, in that order.
-  std::vector<SurfaceCell> surfaces;
-  /// Cells (indexInBlock) that hold a surface, ascending.
-  std::vector<std::uint16_t> surface_index;
-
-  Block() { log_odds.fill(kUnknown); }
-  [[nodiscard]] const SurfaceCell* surface(int index) const;
-  [[nodiscard]] SurfaceCell& surfaceOrNew(int index);
-  /// Adds the block of another mission.
-  void merge(const Block& other);
 };
 
 /// What is known of a cell's occupancy.
@@ -122,9 +106,7 @@ template <typename Visitor>
 void forEachSurface(const ThermalMap& map, Visitor&& visit) {
   for (const BlockKey& block_key : map.sortedBlockKeys()) {
     const Block& block = *map.block(block_key);
-    for (std::size_t i = 0; i < block.surfaces.size(); ++i) {
-      visit(cellAt(block_key, block.surface_index[i]), block.surfaces[i]);
-    }
+    block.forEachSurface([&](int index, const SurfaceCell& cell) { visit(cellAt(block_key, index), cell); });
   }
 }
 

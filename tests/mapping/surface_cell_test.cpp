@@ -45,15 +45,15 @@ TEST(SurfaceCell, TakesZeroCelsiusForATemperature) {
   cell.addTemperature(seen(0.0, 0.1), kNoon);
   EXPECT_EQ(cell.observations, 1U);
   EXPECT_NEAR(cell.mean(), 0.0, 1e-9);
-  EXPECT_NEAR(cell.spread(), 0.0, 1e-4);
-  EXPECT_NEAR(cell.sigmaOfMean(), 0.1, 1e-6);
+  EXPECT_NEAR(cell.spread(), 0.0, 0.1 / 16);  // by which squares are rounded
+  EXPECT_NEAR(cell.sigmaOfMean(), 0.1, 1e-5);
 }
 
 TEST(SurfaceCell, KeepsAConstantAfterManyObservations) {
   SurfaceCell cell;
   for (int i = 0; i < 100000; ++i) cell.addTemperature(seen(200.125, 0.05), kNoon);
   EXPECT_NEAR(cell.mean(), 200.125, 1e-6);
-  EXPECT_NEAR(cell.spread(), 0.0, 1e-4);
+  EXPECT_NEAR(cell.spread(), 0.0, 0.05 / 16);
 }
 
 TEST(SurfaceCell, AgreesWithWeightedStatisticsInDoubles) {
@@ -72,10 +72,10 @@ TEST(SurfaceCell, AgreesWithWeightedStatisticsInDoubles) {
     squares += weight * celsius * celsius;
   }
   const double mean = sum / weights;
-  EXPECT_NEAR(cell.mean(), mean, 1e-4);
+  EXPECT_NEAR(cell.mean(), mean, 1e-3);  // each temperature is rounded by 1 mK, each weight by 2e-4 of it
   const double spread = std::sqrt(squares / weights - mean * mean);
-  EXPECT_NEAR(cell.sigmaOfMean(), std::max(std::sqrt(1.0 / weights), spread / 2.0), 1e-4);
-  EXPECT_NEAR(cell.spread(), spread, 1e-4);
+  EXPECT_NEAR(cell.sigmaOfMean(), std::max(std::sqrt(1.0 / weights), spread / 2.0), 1e-3);
+  EXPECT_NEAR(cell.spread(), spread, 1e-3);
 }
 
 TEST(SurfaceCell, AveragesNoiseAwayWithoutBias) {
@@ -93,7 +93,7 @@ TEST(SurfaceCell, IsNotMovedByAPasserBy) {
   for (int i = 0; i < 50; ++i) cell.addTemperature(seen(20.0, 0.1), kNoon);
   for (int i = 0; i < 5; ++i) cell.addTemperature(seen(35.0, 0.1), kNoon);
   EXPECT_NEAR(cell.mean(), 20.0, 0.25);  // the plain mean would be 21.4
-  EXPECT_FLOAT_EQ(cell.max_celsius, 35.0F);
+  EXPECT_DOUBLE_EQ(cell.maxCelsius(), 35.0);
   EXPECT_EQ(cell.observations, 55U);
 }
 
@@ -150,33 +150,32 @@ TEST(SurfaceCell, RecoversWhenThePasserByCameFirst) {
 TEST(SurfaceCell, HoldsTheExtremesOfItsRangeOverManyMerges) {
   SurfaceCell cell;
   cell.addTemperature(seen(3000.0, 0.01), kNoon);
-  for (int i = 0; i < 31; ++i) cell.merge(SurfaceCell(cell));
-  EXPECT_EQ(cell.observations, 1U << 31);
+  for (int i = 0; i < 22; ++i) cell.merge(SurfaceCell(cell));
+  EXPECT_EQ(cell.observations, SurfaceCell::kMaxObservations);
   EXPECT_NEAR(cell.mean(), 3000.0, 1e-6);
-  EXPECT_NEAR(cell.spread(), 0.0, 1e-3);
-  const SurfaceCell half = cell;
-  for (int i = 0; i < 3; ++i) cell.merge(half);  // 2^32 observations are too many for one cell
-  EXPECT_EQ(cell.observations, 1U << 31);
-  EXPECT_NEAR(cell.mean(), 3000.0, 1e-6);
+  EXPECT_NEAR(cell.spread(), 0.0, 0.02 / 16);
+  const SurfaceCell full = cell;
+  for (int i = 0; i < 3; ++i) cell.merge(full);  // too many for one cell
+  EXPECT_EQ(cell, full);
   cell.addReturn({0.5, 0.5, 0.5});
   EXPECT_TRUE(cell.isPlausible());
   SurfaceCell cold;
   cold.addTemperature(seen(-500.0, 1000.0), kNoon);
-  EXPECT_NEAR(cold.mean(), -273.15, 1e-4);
-  EXPECT_NEAR(cold.sigmaOfMean(), 100.0, 1.5);  // 26 units of weight, rounded
+  EXPECT_NEAR(cold.mean(), -273.15, 1e-3);
+  EXPECT_NEAR(cold.sigmaOfMean(), 32.0, 1e-9);
 }
 
 TEST(SurfaceCell, KeepsTheBusierOfTwoThatAreTooManyTogether) {
   SurfaceCell warm, cool;
   warm.addTemperature(seen(50.0, 0.1), kNoon);
   cool.addTemperature(seen(10.0, 0.1), kNoon);
-  for (int i = 0; i < 31; ++i) warm.merge(SurfaceCell(warm));
-  for (int i = 0; i < 31; ++i) cool.merge(SurfaceCell(cool));
+  for (int i = 0; i < 21; ++i) warm.merge(SurfaceCell(warm));
+  for (int i = 0; i < 21; ++i) cool.merge(SurfaceCell(cool));
   warm.addTemperature(seen(50.0, 0.1), kNoon);
   EXPECT_EQ(merged(warm, cool), merged(cool, warm));
   EXPECT_NEAR(merged(warm, cool).mean(), 50.0, 1e-6);
-  EXPECT_EQ(merged(warm, cool).observations, (1U << 31) + 1);
-  EXPECT_FLOAT_EQ(merged(warm, cool).min_celsius, 10.0F);
+  EXPECT_EQ(merged(warm, cool).observations, (1U << 21) + 1);
+  EXPECT_DOUBLE_EQ(merged(warm, cool).minCelsius(), 10.0);
 }
 
 TEST(SurfaceCell, MergesInAnyOrderAndGroupingBitForBit) {
@@ -193,10 +192,12 @@ TEST(SurfaceCell, KeepsFirstAndLastTimeAndTheViewWithMostPixels) {
   cell.addTemperature(seen(20, 0.1, 8.0F, 0.0F), kNoon);
   cell.addTemperature(seen(20, 0.1, 4.0F, 0.5F), kNoon + std::chrono::seconds(5));
   cell.addTemperature(seen(20, 0.1, 3.9F, 1.5F), kNoon - std::chrono::seconds(5));
-  EXPECT_EQ(cell.first(), kNoon - std::chrono::seconds(5));
-  EXPECT_EQ(cell.last(), kNoon + std::chrono::seconds(5));
+  EXPECT_LE(cell.first(), kNoon - std::chrono::seconds(5));
+  EXPECT_GT(cell.first(), kNoon - std::chrono::milliseconds(7200));
+  EXPECT_LE(cell.last(), kNoon + std::chrono::seconds(5));
+  EXPECT_GT(cell.last(), kNoon + std::chrono::seconds(5) - std::chrono::microseconds(33));
   EXPECT_NEAR(cell.bestView().range, 4.0, 0.005);
-  EXPECT_NEAR(cell.bestView().incidence, 0.5, 5e-5);
+  EXPECT_NEAR(cell.bestView().incidence, 0.5, 0.005);
 }
 
 TEST(SurfaceCell, KnowsThatAnIncidenceIsUnknown) {

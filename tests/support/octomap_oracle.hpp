@@ -107,7 +107,7 @@ class OctomapOracle {
   [[nodiscard]] std::size_t knownCells() const {
     std::size_t known = 0;
     for (const BlockKey& key : map_.sortedBlockKeys()) {
-      for (const LogOdds log_odds : map_.block(key)->log_odds) known += log_odds != kUnknown;
+      known += map_.block(key)->log_odds.knownCells();
     }
     return known;
   }

@@ -11,10 +11,7 @@ namespace thermovox::test {
 [[nodiscard]] inline bool sameMap(const ThermalMap& a, const ThermalMap& b) {
   if (a.options() != b.options() || a.sortedBlockKeys() != b.sortedBlockKeys()) return false;
   for (const BlockKey& key : a.sortedBlockKeys()) {
-    const Block& x = *a.block(key);
-    const Block& y = *b.block(key);
-    if (x.log_odds != y.log_odds || x.surface_index != y.surface_index || x.surfaces != y.surfaces)
-      return false;
+    if (!(*a.block(key) == *b.block(key))) return false;
   }
   return true;
 }
