@@ -96,6 +96,11 @@ struct TileKey {
           tile.z * kTileEdge + (index >> (2 * kTileBits))};
 }
 
+/// Place of a cell within its tile: indexInTile of its block * kBlockCells + indexInBlock.
+[[nodiscard]] inline std::uint32_t cellInTile(const CellKey& key) {
+  return static_cast<std::uint32_t>(indexInTile(blockOf(key)) << (3 * kBlockBits) | indexInBlock(key));
+}
+
 struct BlockKeyHash {
   [[nodiscard]] std::size_t operator()(const BlockKey& key) const {
     // Three odd constants (as in Teschner et al. 2003), then a finaliser: neighbours must not cluster.

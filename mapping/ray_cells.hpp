@@ -37,8 +37,17 @@ class RayCells {
     }
   }
 
- private:
   using Index = std::array<std::int32_t, 3>;
+  /// The cell where the ray begins, and where it ends.
+  [[nodiscard]] CellKey first() const { return keyOf(first_); }
+  [[nodiscard]] CellKey last() const { return keyOf(last_); }
+  /// Per axis: the way the ray goes (-1, 0, 1), the distance along it to the first border it crosses and from
+  /// border to border (metres; huge where it goes no way).
+  [[nodiscard]] const Index& step() const { return step_; }
+  [[nodiscard]] const std::array<double, 3>& toFirstBorder() const { return t_max_; }
+  [[nodiscard]] const std::array<double, 3>& fromBorderToBorder() const { return t_delta_; }
+
+ private:
   [[nodiscard]] CellKey keyOf(const Index& cell) const {
     return {cell[0] + shift_[0], cell[1] + shift_[1], cell[2] + shift_[2]};
   }

@@ -1,42 +1,78 @@
 #include "mapping/reading_marks.hpp"
 
-#include <algorithm>
-
 namespace thermovox {
+namespace {
 
-/// Where the key stands in slots_, or where it would.
-std::size_t ReadingMarks::slotOf(const BlockKey& key) const {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = BlockKeyHash{}(key)&mask;
-  while (slots_[slot] != kEmpty && tiles_[slots_[slot]].key != key) slot = (slot + 1) & mask;
-  return slot;
+void setBit(ReadingMarks::Tile::Bits& bits, std::uint32_t cell) {
+  bits[cell >> 6] |= std::uint64_t{1} << (cell & 63);
 }
 
-std::uint32_t ReadingMarks::find(const BlockKey& key) {
-  if (2 * (tiles_.size() + 1) > slots_.size()) grow();
-  std::uint32_t& index = slots_[slotOf(key)];
-  if (index == kEmpty) {
-    index = static_cast<std::uint32_t>(tiles_.size());
-    tiles_.push_back({key});
+}  // namespace
+
+ReadingMarks::Tile& ReadingMarks::lookUp(const TileKey& key) {
+  Tile*& tile = table_[key];
+  if (tile == nullptr) {
+    if (used_.size() == pool_.size()) pool_.push_back(std::make_unique<Tile>());
+    tile = pool_[used_.size()].get();
+    tile->key = key;
+    used_.push_back(tile);
   }
-  return index;
+  slots_[slotOf(key)] = {key, tile};
+  return *tile;
 }
 
-void ReadingMarks::grow() {
-  slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), kEmpty);
-  for (std::uint32_t i = 0; i < tiles_.size(); ++i) slots_[slotOf(tiles_[i].key)] = i;
+ReadingMarks::Tile* ReadingMarks::find(const TileKey& key) const {
+  const auto found = table_.find(key);
+  return found == table_.end() ? nullptr : found->second;
 }
 
-const std::vector<ReadingMarks::Tile>& ReadingMarks::sortedTiles() {
-  // Backwards: taking out what went in last leaves the table as it was before, so all others are still found.
-  for (auto tile = tiles_.rbegin(); tile != tiles_.rend(); ++tile) slots_[slotOf(tile->key)] = kEmpty;
-  std::sort(tiles_.begin(), tiles_.end(), [](const Tile& a, const Tile& b) { return a.key < b.key; });
-  return tiles_;
+void ReadingMarks::markHit(const CellKey& key) {
+  setBit(tileOrNew(tileOf(blockOf(key))).hit, cellInTile(key));
+}
+
+void ReadingMarks::markBeside(const CellKey& key) {
+  const CellKey beside[] = {{key.x - 1, key.y, key.z}, {key.x + 1, key.y, key.z}, {key.x, key.y - 1, key.z},
+                            {key.x, key.y + 1, key.z}, {key.x, key.y, key.z - 1}, {key.x, key.y, key.z + 1}};
+  for (const CellKey& cell : beside) setBit(tileOrNew(tileOf(blockOf(cell))).beside, cellInTile(cell));
+}
+
+/// The loop of markPassed over the codes of one chunk.
+template <typename TileOf>
+THERMOVOX_INLINE_LOOP void markChunk(const RayCrossings::Codes& codes, int count, TileOf&& tile_of) {
+  std::uint32_t tile_code = codes.tile[0];
+  std::uint64_t* passed = tile_of(tile_code);
+  for (int i = 0; i < count; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    if (codes.tile[index] != tile_code) {
+      tile_code = codes.tile[index];
+      passed = tile_of(tile_code);
+    }
+    const std::uint32_t cell = codes.cell[index];
+    passed[cell >> 6] |= std::uint64_t{1} << (cell & 63);
+  }
+}
+
+void ReadingMarks::markPassed(const RayCells& ray) {
+  if (ray.first() == ray.last()) return;
+  const RayCrossings crossings(ray);
+  if (crossings.isTooLong()) return walk(ray);
+  const TileKey first_tile = tileOf(blockOf(ray.first()));
+  setBit(tileOrNew(first_tile).passed, cellInTile(ray.first()));
+  crossings.forEachChunk(codes_, [&](const RayCrossings::Codes& codes, int count) {
+    markChunk(codes, count,
+              [&](std::uint32_t code) { return tileOrNew(tileOfCode(code, first_tile)).passed.data(); });
+  });
+}
+
+void ReadingMarks::walk(const RayCells& ray) {
+  ray.forEach(
+      [this](const CellKey& key) { setBit(tileOrNew(tileOf(blockOf(key))).passed, cellInTile(key)); });
 }
 
 void ReadingMarks::clear() {
-  tiles_.clear();
-  last_ = 0;
+  for (const Tile* tile : used_) slots_[slotOf(tile->key)].tile = nullptr;
+  used_.clear();
+  table_.clear();
 }
 
 }  // namespace thermovox

@@ -2,47 +2,67 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "mapping/block.hpp"
+#include "mapping/ray_crossings.hpp"
 
 namespace thermovox {
 
-/// Which cells one reading hit and which it saw through: two bits a cell, kept by block, so that a cell that
-/// thousands of rays cross is updated once and the map is touched once a block.
+/// Which cells one reading hit and which it saw through: a bit a cell, so that a cell that thousands of rays
+/// cross is updated once, and the map is touched once a block. The bits lie as the map's tiles and blocks do;
+/// a block's are one cache line.
 class ReadingMarks {
  public:
-  using Bits = CellBits;
   struct Tile {
-    BlockKey key;
-    Bits free{};  ///< passed by a ray; where `hit` is set too, the hit counts
+    /// The CellBits of its blocks, one after the other.
+    using Bits = std::array<std::uint64_t, kTileBlocks * std::tuple_size_v<CellBits>>;
+    TileKey key;
+    Bits passed{};  ///< by a ray; where `hit` is set too, the hit counts
     Bits hit{};
+    Bits beside{};  ///< next to a hit; only where asked for
   };
 
-  void markFree(const CellKey& key) { mark(&Tile::free, key); }
-  void markHit(const CellKey& key) { mark(&Tile::hit, key); }
+  void markHit(const CellKey& key);
+  /// The six cells that share a face with this one.
+  void markBeside(const CellKey& key);
+  /// All cells of the ray before its last one, which may be marked too: its return is a hit.
+  void markPassed(const RayCells& ray);
 
-  /// The marked blocks in ascending order of their keys. Ends the marking until clear().
-  [[nodiscard]] const std::vector<Tile>& sortedTiles();
-  /// Back to nothing marked, in time proportional to what was.
+  /// The marked tiles in the order in which they were first marked. Whoever reads the bits clears them.
+  [[nodiscard]] const std::vector<Tile*>& tiles() const { return used_; }
+  /// The marks of a tile; null when it has none.
+  [[nodiscard]] Tile* find(const TileKey& key) const;
+  /// Forgets the tiles, whose bits are clear again, and keeps their memory for the next reading.
   void clear();
 
  private:
-  static constexpr std::uint32_t kEmpty = 0xFFFFFFFFU;
+  struct TileKeyHash {
+    std::size_t operator()(const TileKey& key) const { return BlockKeyHash{}({key.x, key.y, key.z}); }
+  };
+  struct Slot {
+    TileKey key;
+    Tile* tile = nullptr;
+  };
+  static constexpr std::size_t kSlots = 4096;
 
-  void mark(Bits Tile::*bits, const CellKey& key) {
-    const int index = indexInBlock(key);
-    const BlockKey block = blockOf(key);
-    if (tiles_.empty() || tiles_[last_].key != block) last_ = find(block);
-    (tiles_[last_].*bits)[static_cast<std::size_t>(index >> 6)] |= std::uint64_t{1} << (index & 63);
+  [[nodiscard]] static std::size_t slotOf(const TileKey& key) {
+    return static_cast<std::size_t>((key.x & 15) | (key.y & 15) << 4 | (key.z & 15) << 8);
   }
-  [[nodiscard]] std::uint32_t find(const BlockKey& key);
-  [[nodiscard]] std::size_t slotOf(const BlockKey& key) const;
-  void grow();
+  [[nodiscard]] Tile& tileOrNew(const TileKey& key) {
+    const Slot& slot = slots_[slotOf(key)];
+    return slot.tile != nullptr && slot.key == key ? *slot.tile : lookUp(key);
+  }
+  Tile& lookUp(const TileKey& key);
+  void walk(const RayCells& ray);
 
-  std::vector<Tile> tiles_;
-  std::vector<std::uint32_t> slots_;  ///< open addressing: indices of tiles_, a power of two of them
-  std::uint32_t last_ = 0;            ///< the tile marked last: a ray stays in one for a few cells
+  std::vector<Slot> slots_{kSlots};  ///< the tile looked up last of those that share a slot
+  std::unordered_map<TileKey, Tile*, TileKeyHash> table_;
+  std::vector<Tile*> used_;
+  std::vector<std::unique_ptr<Tile>> pool_;  ///< those in use first
+  RayCrossings::Codes codes_;
 };
 
 }  // namespace thermovox

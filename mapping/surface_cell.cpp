@@ -54,13 +54,26 @@ std::uint8_t incidenceCode(float incidence) {
       std::clamp(incidence * kIncidenceSteps + 0.5, 0.0, static_cast<double>(kMostIncidence)));
 }
 
-/// Orders views, the better first: most pixels on the cell, cos(incidence) / range^2; ties by the codes.
-auto viewOrder(std::uint64_t range_cm, std::uint64_t incidence) {
-  const double cosine = incidence == SurfaceCell::kUnknownIncidence
-                            ? kUnknownCosine
-                            : std::max(std::cos(static_cast<double>(incidence) / kIncidenceSteps), 0.0);
-  const double range = std::max(static_cast<double>(range_cm), 1.0);
-  return std::make_tuple(-cosine / (range * range), range_cm, incidence);
+/// Cosines of the incidence codes.
+const std::array<double, 256> kCosines = [] {
+  std::array<double, 256> cosines{};
+  for (std::size_t code = 0; code < cosines.size(); ++code) {
+    cosines[code] = std::max(std::cos(static_cast<double>(code) / kIncidenceSteps), 0.0);
+  }
+  cosines[SurfaceCell::kUnknownIncidence] = kUnknownCosine;
+  return cosines;
+}();
+
+/// Whether view a is better than view b: more pixels on the cell, cos(incidence) / range^2; ties by the
+/// codes.
+bool isBetterView(std::uint64_t range_a, std::uint64_t incidence_a, std::uint64_t range_b,
+                  std::uint64_t incidence_b) {
+  const auto near_a = static_cast<double>(std::max<std::uint64_t>(range_a, 1));
+  const auto near_b = static_cast<double>(std::max<std::uint64_t>(range_b, 1));
+  const double pixels_a = kCosines[incidence_a] * (near_b * near_b);
+  const double pixels_b = kCosines[incidence_b] * (near_a * near_a);
+  if (pixels_a != pixels_b) return pixels_a > pixels_b;
+  return std::tie(range_a, incidence_a) < std::tie(range_b, incidence_b);
 }
 
 }  // namespace
@@ -71,6 +84,38 @@ void SurfaceCell::addReturn(const Eigen::Vector3d& offset) {
     offset_sum[i] += static_cast<std::uint64_t>(std::clamp(offset[i] * kOffsetSteps, 0.0, 255.0));
   }
   returns += 1;
+}
+
+inline void SurfaceCell::addSums(const SurfaceCell& other) {
+  if (observations + other.observations <= kMaxObservations) {
+    observations += other.observations;
+    weight_sum += other.weight_sum;
+    weighted_sum += other.weighted_sum;
+    weighted_square_sum += other.weighted_square_sum;
+    return;
+  }
+  const auto order = [](const SurfaceCell& cell) {  // the busier last, ties by the sums
+    return std::make_tuple(+cell.observations, +cell.weight_sum, +cell.weighted_sum,
+                           +cell.weighted_square_sum);
+  };
+  if (order(other) <= order(*this)) return;
+  observations = other.observations;
+  weight_sum = other.weight_sum;
+  weighted_sum = other.weighted_sum;
+  weighted_square_sum = other.weighted_square_sum;
+}
+
+inline void SurfaceCell::mergeTemperature(const SurfaceCell& other) {
+  const bool first_here = observations == 0;
+  if (first_here || other.min_code < min_code) min_code = other.min_code;
+  if (first_here || other.max_code > max_code) max_code = other.max_code;
+  if (first_here || other.first_code < first_code) first_code = other.first_code;
+  if (first_here || other.last_code > last_code) last_code = other.last_code;
+  if (first_here || isBetterView(other.best_range_cm, other.best_incidence, best_range_cm, best_incidence)) {
+    best_range_cm = other.best_range_cm;
+    best_incidence = other.best_incidence;
+  }
+  addSums(other);
 }
 
 double SurfaceCell::guardedShare(double celsius, double sigma) const {
@@ -104,7 +149,7 @@ void SurfaceCell::addTemperature(const TemperatureObservation& observation, Time
   single.min_code = single.max_code = extremeCode(celsius);
   single.best_range_cm = rangeCode(observation.range);
   single.best_incidence = incidenceCode(observation.incidence);
-  merge(single);
+  mergeTemperature(single);
 }
 
 void SurfaceCell::merge(const SurfaceCell& other) {
@@ -118,38 +163,7 @@ void SurfaceCell::merge(const SurfaceCell& other) {
              order(*this) < order(other)) {
     std::tie(returns, offset_sum) = std::tie(other.returns, other.offset_sum);  // the busier one's position
   }
-  if (other.observations == 0) return;
-  const bool first_here = observations == 0;
-  if (first_here || other.min_code < min_code) min_code = other.min_code;
-  if (first_here || other.max_code > max_code) max_code = other.max_code;
-  if (first_here || other.first_code < first_code) first_code = other.first_code;
-  if (first_here || other.last_code > last_code) last_code = other.last_code;
-  const bool same_view = best_range_cm == other.best_range_cm && best_incidence == other.best_incidence;
-  if (first_here || (!same_view && viewOrder(other.best_range_cm, other.best_incidence) <
-                                       viewOrder(best_range_cm, best_incidence))) {
-    best_range_cm = other.best_range_cm;
-    best_incidence = other.best_incidence;
-  }
-  addSums(other);
-}
-
-void SurfaceCell::addSums(const SurfaceCell& other) {
-  if (observations + other.observations <= kMaxObservations) {
-    observations += other.observations;
-    weight_sum += other.weight_sum;
-    weighted_sum += other.weighted_sum;
-    weighted_square_sum += other.weighted_square_sum;
-    return;
-  }
-  const auto order = [](const SurfaceCell& cell) {  // the busier last, ties by the sums
-    return std::make_tuple(+cell.observations, +cell.weight_sum, +cell.weighted_sum,
-                           +cell.weighted_square_sum);
-  };
-  if (order(other) <= order(*this)) return;
-  observations = other.observations;
-  weight_sum = other.weight_sum;
-  weighted_sum = other.weighted_sum;
-  weighted_square_sum = other.weighted_square_sum;
+  if (other.observations > 0) mergeTemperature(other);
 }
 
 bool SurfaceCell::isPlausible() const {

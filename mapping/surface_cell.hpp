@@ -109,6 +109,8 @@ struct SurfaceCell {
   }
 
  private:
+  /// All but the returns. Precondition: other.observations > 0.
+  void mergeTemperature(const SurfaceCell& other);
   /// Observations, weights and moments; of two too many for one cell the busier one's.
   void addSums(const SurfaceCell& other);
   /// 1, or less for an observation that is far off.

@@ -1,11 +1,9 @@
 #include "mapping/thermal_map.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <sstream>
 
-#include "mapping/ray_cells.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -13,21 +11,6 @@ namespace {
 
 bool isWithin(const Eigen::Vector3d& p_world, double reach) {
   return p_world.cwiseAbs().maxCoeff() < reach && p_world.allFinite();
-}
-
-/// One step for every cell whose bit is set.
-void update(BlockLogOdds& log_odds, const CellBits& cells, int step, const OccupancyModel& model) {
-  for (std::size_t word = 0; word < cells.size(); ++word) {
-    for (std::uint64_t bits = cells[word]; bits != 0; bits &= bits - 1) {
-      const int index = static_cast<int>(64 * word) + std::countr_zero(bits);
-      log_odds.set(index, model.updated(log_odds[index], step));
-    }
-  }
-}
-
-/// Place within its cell, in edges.
-Eigen::Vector3d offsetInCell(const Eigen::Vector3d& p_world, const CellKey& key, double inverse_resolution) {
-  return p_world * inverse_resolution - Eigen::Vector3d(key.x, key.y, key.z);
 }
 
 }  // namespace
@@ -41,14 +24,20 @@ void ThermalMap::Options::validate() const {
   occupancy.validate();
 }
 
-ThermalMap::ThermalMap(const Options& options) : options_(options), model_(options.occupancy) {
+ThermalMap::ThermalMap(const Options& options)
+    : options_(options), model_(options.occupancy), integrator_(model_, options.resolution) {
   options_.validate();
 }
 
 void ThermalMap::integrate(std::span<const MappedReturn> reading, Carving carving) {
   check(reading);
-  updateOccupancy(reading, carving);
-  updateSurfaces(reading);
+  if (!reading.empty()) integrator_.integrate(reading, carving, tiles_);
+  tiles_.trim();
+}
+
+void ThermalMap::spillTo(TileStore& store, std::size_t limit_bytes) {
+  tiles_.spillTo(store, limit_bytes);
+  tiles_.trim();
 }
 
 void ThermalMap::check(std::span<const MappedReturn> reading) const {
@@ -70,39 +59,11 @@ void ThermalMap::check(std::span<const MappedReturn> reading) const {
   }
 }
 
-void ThermalMap::updateOccupancy(std::span<const MappedReturn> reading, Carving carving) {
-  for (const MappedReturn& ret : reading) {
-    marks_.markHit(keyOf(ret.p_world));
-    if (carving == Carving::none) continue;
-    RayCells(ret.origin_world, ret.p_world, options_.resolution).forEach([this](const CellKey& key) {
-      marks_.markFree(key);
-    });
-  }
-  for (const ReadingMarks::Tile& tile : marks_.sortedTiles()) {
-    Block& block = blockOrNew(tile.key);
-    CellBits free = tile.free;
-    for (std::size_t word = 0; word < free.size(); ++word) free[word] &= ~tile.hit[word];
-    update(block.log_odds, free, model_.miss(), model_);
-    update(block.log_odds, tile.hit, model_.hit(), model_);
-  }
-  marks_.clear();
-}
-
-void ThermalMap::updateSurfaces(std::span<const MappedReturn> reading) {
-  const double inverse = 1.0 / options_.resolution;
-  for (const MappedReturn& ret : reading) {
-    const CellKey key = cellKey(ret.p_world, inverse);
-    SurfaceCell& cell = blockOrNew(blockOf(key)).surfaceOrNew(indexInBlock(key));
-    cell.addReturn(offsetInCell(ret.p_world, key, inverse));
-    if (ret.temperature) cell.addTemperature(*ret.temperature, ret.stamp);
-  }
-}
-
-bool ThermalMap::observe(const CellKey& key, const TemperatureObservation& observation, Time stamp) {
-  const auto found = blocks_.find(blockOf(key));
-  if (found == blocks_.end() || found->second->surface(indexInBlock(key)) == nullptr) return false;
-  found->second->surfaceOrNew(indexInBlock(key)).addTemperature(observation, stamp);
-  return true;
+void ThermalMap::observe(const CellKey& key, const TemperatureObservation& observation, Time stamp) {
+  const BlockKey block = blockOf(key);
+  MapTile& tile = tiles_.findOrNew(tileOf(block));
+  tile.blockOrNew(indexInTile(block)).surfaceOrNew(indexInBlock(key)).addTemperature(observation, stamp);
+  tiles_.trim();
 }
 
 void ThermalMap::merge(const ThermalMap& other) {
@@ -112,23 +73,31 @@ void ThermalMap::merge(const ThermalMap& other) {
             << " m cells cannot be merged, expected one resolution and one occupancy model";
     throw ConfigError(message.str());
   }
-  for (const auto& [key, block] : other.blocks_) blockOrNew(key).merge(*block);
+  other.forEachTile([this](const TileKey& key, const MapTile& from) {
+    MapTile& tile = tiles_.findOrNew(key);
+    from.forEachBlock([&](int index, const Block& block) { tile.blockOrNew(index).merge(block); });
+    tiles_.recount({{key}});
+    tiles_.trim();
+  });
 }
 
 Eigen::Vector3d ThermalMap::centerOf(const CellKey& key) const {
   return (Eigen::Vector3d(key.x, key.y, key.z).array() + 0.5) * options_.resolution;
 }
 
-Occupancy ThermalMap::occupancy(const CellKey& key) const {
+LogOdds ThermalMap::logOddsOf(const CellKey& key) const {
   const Block* found = block(blockOf(key));
-  const LogOdds log_odds = found ? found->log_odds[indexInBlock(key)] : kUnknown;
+  return found ? found->log_odds[indexInBlock(key)] : kUnknown;
+}
+
+Occupancy ThermalMap::occupancy(const CellKey& key) const {
+  const LogOdds log_odds = logOddsOf(key);
   if (log_odds == kUnknown) return Occupancy::unknown;
   return model_.isOccupied(log_odds) ? Occupancy::occupied : Occupancy::free;
 }
 
 std::optional<double> ThermalMap::logOdds(const CellKey& key) const {
-  const Block* found = block(blockOf(key));
-  const LogOdds log_odds = found ? found->log_odds[indexInBlock(key)] : kUnknown;
+  const LogOdds log_odds = logOddsOf(key);
   if (log_odds == kUnknown) return std::nullopt;
   return model_.naturalLogOdds(log_odds);
 }
@@ -138,31 +107,36 @@ const SurfaceCell* ThermalMap::surface(const CellKey& key) const {
   return found ? found->surface(indexInBlock(key)) : nullptr;
 }
 
-std::size_t ThermalMap::surfaceCount() const {
+std::size_t ThermalMap::blockCount() const {
   std::size_t count = 0;
-  for (const auto& [key, block] : blocks_) count += block->surfaceCount();
+  forEachBlock([&count](const BlockKey&, const Block&) { ++count; });
   return count;
 }
 
-const Block* ThermalMap::block(const BlockKey& key) const {
-  const auto found = blocks_.find(key);
-  return found == blocks_.end() ? nullptr : found->second.get();
+std::size_t ThermalMap::surfaceCount() const {
+  std::size_t count = 0;
+  forEachBlock([&count](const BlockKey&, const Block& block) { count += block.surfaceCount(); });
+  return count;
 }
 
-Block& ThermalMap::blockOrNew(const BlockKey& key) {
-  std::unique_ptr<Block>& found = blocks_[key];
-  if (!found) found = std::make_unique<Block>();
-  return *found;
+std::size_t ThermalMap::memoryBytes() const {
+  return tiles_.memoryBytes();
+}
+
+const Block* ThermalMap::block(const BlockKey& key) const {
+  const MapTile* tile = tiles_.find(tileOf(key));
+  return tile ? tile->block(indexInTile(key)) : nullptr;
 }
 
 void ThermalMap::setBlock(const BlockKey& key, Block block) {
-  blockOrNew(key) = std::move(block);
+  tiles_.findOrNew(tileOf(key)).blockOrNew(indexInTile(key)) = std::move(block);
+  tiles_.recount({{tileOf(key)}});
+  tiles_.trim();
 }
 
 std::vector<BlockKey> ThermalMap::sortedBlockKeys() const {
   std::vector<BlockKey> keys;
-  keys.reserve(blocks_.size());
-  for (const auto& [key, block] : blocks_) keys.push_back(key);
+  forEachBlock([&keys](const BlockKey& key, const Block&) { keys.push_back(key); });
   std::sort(keys.begin(), keys.end());
   return keys;
 }

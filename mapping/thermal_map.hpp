@@ -1,34 +1,17 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "mapping/block.hpp"
 #include "mapping/cell_key.hpp"
+#include "mapping/mapped_return.hpp"
 #include "mapping/occupancy_model.hpp"
-#include "mapping/reading_marks.hpp"
-#include "mapping/surface_cell.hpp"
+#include "mapping/reading_integrator.hpp"
+#include "mapping/tile_table.hpp"
 
 namespace thermovox {
-
-/// One laser return as the map takes it: where it lies, whence it was seen, and how warm it is.
-struct MappedReturn {
-  Eigen::Vector3d p_world;       ///< metres
-  Eigen::Vector3d origin_world;  ///< where the laser was at that moment, metres
-  Time stamp;
-  std::optional<TemperatureObservation> temperature;  ///< none where no frame saw the point
-};
-
-/// Which cells a ray frees.
-enum class Carving {
-  none,     ///< none: surfaces only
-  octomap,  ///< every cell between the laser and the return, as OctoMap's insertPointCloud does
-};
 
 /// What is known of a cell's occupancy.
 enum class Occupancy { unknown, free, occupied };
@@ -47,6 +30,12 @@ class ThermalMap {
 
   explicit ThermalMap(const Options& options);
 
+  /// How many threads integrate() may use; 1 at first. The result does not depend on it.
+  void setThreads(int threads) { integrator_.setThreads(threads); }
+  /// From now on integrate(), observe(), setBlock() and merge() put tiles into the store when the map takes
+  /// more memory than the limit; all queries bring back what they need. The store must outlive the map.
+  void spillTo(TileStore& store, std::size_t limit_bytes);
+
   /// Integrates one reading: within it a cell is updated once, hit before free (OctoMap's rule); a return
   /// without temperature still is geometry. For the map of ONE mission: what merge() added up over missions
   /// would be clamped again and guarded against the wrong statistics. Throws DataError, leaving the map as it
@@ -54,8 +43,9 @@ class ThermalMap {
   void integrate(std::span<const MappedReturn> reading, Carving carving);
 
   /// Adds a temperature to the surface in a cell, seen by a frame whether or not a return hit it at that
-  /// moment; false, with nothing done, where no return ever hit. Throws DataError when it is not finite.
-  bool observe(const CellKey& key, const TemperatureObservation& observation, Time stamp);
+  /// moment. Where no return of this map ever hit, the surface is one that another mission's map knows: here
+  /// it is then without returns and without occupancy. Throws DataError when the temperature is not finite.
+  void observe(const CellKey& key, const TemperatureObservation& observation, Time stamp);
 
   /// Adds a map of the same resolution and occupancy model (the map of another mission): log-odds add,
   /// statistics add exactly, so that the order of missions does not matter. Throws ConfigError otherwise.
@@ -75,39 +65,59 @@ class ThermalMap {
   /// Statistics of a cell; null where no return ever hit.
   [[nodiscard]] const SurfaceCell* surface(const CellKey& key) const;
 
-  [[nodiscard]] std::size_t blockCount() const { return blocks_.size(); }
+  [[nodiscard]] std::size_t blockCount() const;
   [[nodiscard]] std::size_t surfaceCount() const;
+  /// Memory of what is not in the store.
+  [[nodiscard]] std::size_t memoryBytes() const;
+  /// Tiles that have gone to the store so far.
+  [[nodiscard]] std::size_t spilledTiles() const { return tiles_.spills(); }
+  /// Null where nothing is known. Valid until the map changes.
   [[nodiscard]] const Block* block(const BlockKey& key) const;
   /// Puts a block as it was read from a station or an OctoMap; replaces one that is there.
   void setBlock(const BlockKey& key, Block block);
   /// All blocks in ascending order of their keys (x first), so that two runs write identical files.
   [[nodiscard]] std::vector<BlockKey> sortedBlockKeys() const;
+
+  /// Calls visit(key, tile) for every tile in ascending order of the keys.
+  template <typename Visitor>
+  void forEachTile(Visitor&& visit) const {
+    tiles_.forEachSorted(visit);
+  }
   /// Calls visit(key, block) for every block in no particular order: for results that do not depend on it.
+  /// The visitor must not ask the map for other cells.
   template <typename Visitor>
   void forEachBlock(Visitor&& visit) const {
-    for (const auto& [key, block] : blocks_) visit(key, *block);
+    forEachBlockOfTiles([](const TileKey&) { return true; }, visit);
+  }
+  /// The same for the tiles that keep(tile_key) lets pass.
+  template <typename Keep, typename Visitor>
+  void forEachBlockOfTiles(Keep&& keep, Visitor&& visit) const {
+    tiles_.forEach(keep, [&](const TileKey& tile_key, const MapTile& tile) {
+      tile.forEachBlock([&](int index, const Block& block) { visit(blockAt(tile_key, index), block); });
+    });
   }
 
  private:
   void check(std::span<const MappedReturn> reading) const;
-  void updateOccupancy(std::span<const MappedReturn> reading, Carving carving);
-  void updateSurfaces(std::span<const MappedReturn> reading);
-  [[nodiscard]] Block& blockOrNew(const BlockKey& key);
+  [[nodiscard]] LogOdds logOddsOf(const CellKey& key) const;
 
   Options options_;
   OccupancyModel model_;
-  ReadingMarks marks_;  ///< of the reading at hand; empty between readings
-  std::unordered_map<BlockKey, std::unique_ptr<Block>, BlockKeyHash> blocks_;
+  ReadingIntegrator integrator_;
+  TileTable tiles_;
 };
 
-/// Calls visit(key, surface_cell) for every cell that a return hit, blocks in key order, cells in index
-/// order.
+/// Calls visit(key, surface_cell) for every cell with surface statistics: tiles in ascending order of their
+/// keys, within them blocks and cells with x running fastest.
 template <typename Visitor>
 void forEachSurface(const ThermalMap& map, Visitor&& visit) {
-  for (const BlockKey& block_key : map.sortedBlockKeys()) {
-    const Block& block = *map.block(block_key);
-    block.forEachSurface([&](int index, const SurfaceCell& cell) { visit(cellAt(block_key, index), cell); });
-  }
+  map.forEachTile([&](const TileKey& tile_key, const MapTile& tile) {
+    tile.forEachBlock([&](int block_index, const Block& block) {
+      block.forEachSurface([&](int index, const SurfaceCell& cell) {
+        visit(cellAt(blockAt(tile_key, block_index), index), cell);
+      });
+    });
+  });
 }
 
 }  // namespace thermovox

@@ -8,57 +8,88 @@
 namespace thermovox {
 namespace {
 
-/// The marked cells: 1 free, 2 hit, 3 both.
-std::map<CellKey, int> marksOf(ReadingMarks& marks) {
+enum Mark { kPassed = 1, kHit = 2, kBeside = 4 };
+
+/// The marked cells; clears them, as whoever reads the marks does.
+std::map<CellKey, int> takeMarks(ReadingMarks& marks) {
   std::map<CellKey, int> cells;
-  for (const ReadingMarks::Tile& tile : marks.sortedTiles()) {
-    for (int index = 0; index < kBlockCells; ++index) {
-      const auto bit = [&](const ReadingMarks::Bits& bits) {
-        return static_cast<int>(bits[index / 64] >> (index % 64) & 1);
-      };
-      if (const int mark = bit(tile.free) + 2 * bit(tile.hit)) cells[cellAt(tile.key, index)] = mark;
+  const auto collect = [&](const TileKey& tile, ReadingMarks::Tile::Bits& bits, int mark) {
+    for (int i = 0; i < kTileBlocks * kBlockCells; ++i) {
+      std::uint64_t& word = bits[static_cast<std::size_t>(i / 64)];
+      if ((word >> (i % 64) & 1) != 0) cells[cellAt(blockAt(tile, i / kBlockCells), i % kBlockCells)] |= mark;
     }
+    bits.fill(0);
+  };
+  for (ReadingMarks::Tile* tile : marks.tiles()) {
+    collect(tile->key, tile->passed, kPassed);
+    collect(tile->key, tile->hit, kHit);
+    collect(tile->key, tile->beside, kBeside);
   }
+  marks.clear();
   return cells;
 }
 
 TEST(ReadingMarks, AreThoseOfAPlainSetReadingAfterReading) {
   std::mt19937 rng(5);
+  std::uniform_real_distribution<double> coordinate(-30.0, 30.0);
   ReadingMarks marks;
-  for (const int size : {10, 20000, 3, 50000, 1}) {
-    std::uniform_int_distribution<int> cell(-200, 200);
+  for (const int rays : {10, 300, 3, 500, 1}) {
     std::map<CellKey, int> expected;
-    for (int i = 0; i < size; ++i) {
-      const CellKey key{cell(rng), cell(rng), cell(rng)};
-      if (i % 3 == 0) {
-        marks.markHit(key);
-        expected[key] |= 2;
-      } else {
-        marks.markFree(key);
-        expected[key] |= 1;
-      }
+    const Eigen::Vector3d origin(coordinate(rng), coordinate(rng), coordinate(rng));
+    for (int i = 0; i < rays; ++i) {
+      const Eigen::Vector3d end(coordinate(rng), coordinate(rng), coordinate(rng));
+      const RayCells ray(origin, end, 0.1);
+      marks.markHit(ray.last());
+      expected[ray.last()] |= kHit;
+      marks.markPassed(ray);
+      ray.forEach([&](const CellKey& key) { expected[key] |= kPassed; });
     }
-    EXPECT_EQ(marksOf(marks), expected);
-    marks.clear();
+    std::map<CellKey, int> found = takeMarks(marks);
+    for (auto& [key, mark] : found) {  // the last cell of a ray may be marked as passed too
+      if ((mark & kHit) != 0) mark &= ~kPassed;
+    }
+    for (auto& [key, mark] : expected) {
+      if ((mark & kHit) != 0) mark &= ~kPassed;
+    }
+    EXPECT_EQ(found, expected);
   }
 }
 
-TEST(ReadingMarks, ComeInTheOrderOfTheirBlocks) {
+TEST(ReadingMarks, LieBesideAHitAcrossTheBordersOfTiles) {
   ReadingMarks marks;
-  for (const int x : {40, -40, 0, 80, -80}) marks.markHit({x, -x, x});
-  const auto& tiles = marks.sortedTiles();
-  ASSERT_EQ(tiles.size(), 5U);
-  for (std::size_t i = 1; i < tiles.size(); ++i) EXPECT_LT(tiles[i - 1].key, tiles[i].key);
+  marks.markBeside({0, 63, -64});
+  const std::map<CellKey, int> found = takeMarks(marks);
+  EXPECT_EQ(found.size(), 6U);
+  for (const CellKey key : {CellKey{-1, 63, -64}, CellKey{1, 63, -64}, CellKey{0, 62, -64},
+                            CellKey{0, 64, -64}, CellKey{0, 63, -65}, CellKey{0, 63, -63}}) {
+    EXPECT_TRUE(found.contains(key)) << key.x << " " << key.y << " " << key.z;
+  }
+}
+
+TEST(ReadingMarks, WalkRaysThatAreTooLongForCodes) {
+  ReadingMarks marks;
+  const RayCells ray({0.05, 0.05, 0.05}, {4000.05, 0.05, 0.05}, 0.1);
+  marks.markPassed(ray);
+  EXPECT_EQ(takeMarks(marks).size(), 40000U);
+}
+
+TEST(ReadingMarks, TellTilesApartThatShareASlot) {
+  ReadingMarks marks;
+  for (const int x : {0, 16 * 64, -16 * 64, 32 * 64}) marks.markHit({x, 0, 0});
+  for (const int x : {0, 16 * 64, -16 * 64, 32 * 64}) marks.markHit({x, 1, 0});
+  EXPECT_EQ(marks.tiles().size(), 4U);
+  EXPECT_EQ(takeMarks(marks).size(), 8U);
 }
 
 TEST(ReadingMarks, AreEmptyAtFirstAndAfterClear) {
   ReadingMarks marks;
-  EXPECT_TRUE(marks.sortedTiles().empty());
-  marks.clear();
-  marks.markFree({1, 2, 3});
-  EXPECT_EQ(marks.sortedTiles().size(), 1U);
-  marks.clear();
-  EXPECT_TRUE(marks.sortedTiles().empty());
+  EXPECT_TRUE(marks.tiles().empty());
+  EXPECT_EQ(marks.find({0, 0, 0}), nullptr);
+  marks.markHit({1, 2, 3});
+  EXPECT_NE(marks.find({0, 0, 0}), nullptr);
+  EXPECT_EQ(takeMarks(marks).size(), 1U);
+  EXPECT_TRUE(marks.tiles().empty());
+  EXPECT_EQ(marks.find({0, 0, 0}), nullptr);
 }
 
 }  // namespace

@@ -138,11 +138,11 @@ TEST(ThermalMap, RefusesToMergeOtherCells) {
   EXPECT_THROW(map.merge(ThermalMap({.resolution = 0.1, .occupancy = {.prob_hit = 0.8}})), ConfigError);
 }
 
-TEST(ThermalMap, VisitsSurfacesInTheOrderOfTheirBlocks) {
+TEST(ThermalMap, VisitsSurfacesInTheOrderOfTheirTiles) {
   const ThermalMap map = randomMission(4);
-  std::vector<std::pair<BlockKey, int>> order;
+  std::vector<std::pair<TileKey, std::uint32_t>> order;
   forEachSurface(map, [&](const CellKey& key, const SurfaceCell& cell) {
-    order.emplace_back(blockOf(key), indexInBlock(key));
+    order.emplace_back(tileOf(blockOf(key)), cellInTile(key));
     EXPECT_EQ(map.surface(key), &cell);
   });
   EXPECT_EQ(order.size(), map.surfaceCount());

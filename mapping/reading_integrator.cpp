@@ -1,0 +1,178 @@
+#include "mapping/reading_integrator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include "mapping/parallel.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+constexpr std::size_t kReturnsPerThread = 2000;  // fewer are not worth starting one
+constexpr std::size_t kBatch = 32;               // returns whose cells are fetched together
+
+CellKey cellOf(const TileKey& tile, std::uint32_t cell) {
+  return cellAt(blockAt(tile, static_cast<int>(cell >> 9)), static_cast<int>(cell & 511));
+}
+
+/// Place within its cell, in edges.
+Eigen::Vector3d offsetInCell(const Eigen::Vector3d& p_world, const CellKey& key, double inverse_resolution) {
+  return p_world * inverse_resolution - Eigen::Vector3d(key.x, key.y, key.z);
+}
+
+/// Moves the bits of a block into `to`.
+void take(ReadingMarks::Tile::Bits& tile, int block, CellBits& to) {
+  std::uint64_t* from = tile.data() + static_cast<std::size_t>(block) * to.size();
+  for (std::size_t word = 0; word < to.size(); ++word) {
+    to[word] |= from[word];
+    from[word] = 0;
+  }
+}
+
+void removeBits(CellBits& bits, const CellBits& a, const CellBits& b) {
+  for (std::size_t word = 0; word < bits.size(); ++word) bits[word] &= ~(a[word] | b[word]);
+}
+
+void prefetch(const void* address) {
+  __builtin_prefetch(address);
+  __builtin_prefetch(static_cast<const char*>(address) + 56);  // what is not aligned may end on the next line
+}
+
+bool any(const CellBits& a, const CellBits& b) {
+  std::uint64_t all = 0;
+  for (std::size_t word = 0; word < a.size(); ++word) all |= a[word] | b[word];
+  return all != 0;
+}
+
+}  // namespace
+
+ReadingIntegrator::ReadingIntegrator(const OccupancyModel& model, double resolution)
+    : steps_{.hit = static_cast<std::int8_t>(model.hit()),
+             .miss = static_cast<std::int8_t>(model.miss()),
+             .lowest = static_cast<std::int8_t>(model.clampMin()),
+             .highest = static_cast<std::int8_t>(model.clampMax())},
+      resolution_(resolution),
+      marks_(1) {}
+
+void ReadingIntegrator::setThreads(int threads) {
+  threads_ = std::max(threads, 1);
+}
+
+void ReadingIntegrator::integrate(std::span<const MappedReturn> reading, Carving carving, TileTable& tiles) {
+  const std::size_t useful = 1 + reading.size() / kReturnsPerThread;
+  const int workers = static_cast<int>(std::min(static_cast<std::size_t>(threads_), useful));
+  if (marks_.size() < static_cast<std::size_t>(workers)) marks_.resize(static_cast<std::size_t>(workers));
+  hits_.resize(reading.size());
+  runInParallel(workers, [&](int worker) { mark(reading, carving, worker, workers); });
+  collectTiles(tiles, workers);
+  sweep(carving, workers);
+  runInParallel(workers, [&](int worker) { addReturns(reading, worker, workers); });
+  for (ReadingMarks& marks : marks_) marks.clear();
+  std::vector<TileKey> keys;
+  for (const SweptTile& swept : swept_) keys.push_back(swept.key);
+  tiles.recount(keys);
+}
+
+void ReadingIntegrator::mark(std::span<const MappedReturn> reading, Carving carving, int worker,
+                             int workers) {
+  ReadingMarks& marks = marks_[static_cast<std::size_t>(worker)];
+  const double inverse = 1.0 / resolution_;
+  const std::size_t begin =
+      reading.size() * static_cast<std::size_t>(worker) / static_cast<std::size_t>(workers);
+  const std::size_t end =
+      reading.size() * static_cast<std::size_t>(worker + 1) / static_cast<std::size_t>(workers);
+  for (std::size_t i = begin; i < end; ++i) {
+    const CellKey key = cellKey(reading[i].p_world, inverse);
+    hits_[i] = {tileOf(blockOf(key)), cellInTile(key)};
+    marks.markHit(key);
+    if (carving == Carving::none) continue;
+    if (carving == Carving::careful) marks.markBeside(key);
+    marks.markPassed(RayCells(reading[i].origin_world, reading[i].p_world, resolution_));
+  }
+}
+
+void ReadingIntegrator::collectTiles(TileTable& tiles, int workers) {
+  swept_.clear();
+  for (int worker = 0; worker < workers; ++worker) {
+    for (const ReadingMarks::Tile* tile : marks_[static_cast<std::size_t>(worker)].tiles()) {
+      swept_.push_back({tile->key});
+    }
+  }
+  const auto byKey = [](const SweptTile& a, const SweptTile& b) { return a.key < b.key; };
+  std::sort(swept_.begin(), swept_.end(), byKey);
+  const auto sameKey = [](const SweptTile& a, const SweptTile& b) { return a.key == b.key; };
+  swept_.erase(std::unique(swept_.begin(), swept_.end(), sameKey), swept_.end());
+  for (SweptTile& swept : swept_) swept.tile = &tiles.findOrNew(swept.key);
+}
+
+void ReadingIntegrator::sweep(Carving carving, int workers) {
+  std::atomic<std::size_t> next = 0;
+  runInParallel(workers, [&](int) {
+    for (std::size_t i = next++; i < swept_.size(); i = next++) sweepTile(swept_[i], carving);
+  });
+}
+
+void ReadingIntegrator::sweepTile(const SweptTile& swept, Carving carving) {
+  std::vector<ReadingMarks::Tile*> marked;
+  for (const ReadingMarks& marks : marks_) {
+    if (ReadingMarks::Tile* tile = marks.find(swept.key)) marked.push_back(tile);
+  }
+  const bool careful = carving == Carving::careful;
+  OccupancySteps steps = steps_;
+  if (careful) steps.before_hit = 0;
+  for (int index = 0; index < kTileBlocks; ++index) {
+    CellBits passed{}, hit{}, beside{};
+    for (ReadingMarks::Tile* tile : marked) {
+      take(tile->passed, index, passed);
+      take(tile->hit, index, hit);
+      if (careful) take(tile->beside, index, beside);
+    }
+    if (!any(passed, hit)) continue;
+    Block& block = swept.tile->blockOrNew(index);
+    if (!block.log_odds.isNarrow()) {
+      throw ConfigError("a reading came to a map that holds several missions, expected the map of one");
+    }
+    if (careful) removeBits(passed, beside, block.surfaceMask());
+    updateLogOdds(block.log_odds.bytes(), passed, hit, steps);
+  }
+}
+
+void ReadingIntegrator::addReturns(std::span<const MappedReturn> reading, int worker, int workers) {
+  std::array<std::pair<std::size_t, Block*>, kBatch> batch;
+  std::size_t filled = 0;
+  const auto addBatch = [&] {
+    for (std::size_t i = 0; i < filled; ++i) {  // both lines are fetched while others are waited for
+      const auto& [place, block] = batch[i];
+      if (const SurfaceCell* cell = block->surface(static_cast<int>(hits_[place].cell & 511))) prefetch(cell);
+    }
+    for (std::size_t i = 0; i < filled; ++i) {
+      addReturn(reading[batch[i].first], hits_[batch[i].first], *batch[i].second);
+    }
+    filled = 0;
+  };
+  const SweptTile* swept = swept_.data();
+  for (std::size_t i = 0; i < reading.size(); ++i) {
+    if (swept->key != hits_[i].tile) swept = sweptTile(hits_[i].tile);
+    if ((swept - swept_.data()) % workers != worker) continue;
+    Block& block = swept->tile->blockOrNew(static_cast<int>(hits_[i].cell >> 9));
+    prefetch(&block.surfaceMask());
+    batch[filled++] = {i, &block};
+    if (filled == kBatch) addBatch();
+  }
+  addBatch();
+}
+
+const ReadingIntegrator::SweptTile* ReadingIntegrator::sweptTile(const TileKey& key) const {
+  return &*std::lower_bound(swept_.begin(), swept_.end(), key,
+                            [](const SweptTile& a, const TileKey& b) { return a.key < b; });
+}
+
+void ReadingIntegrator::addReturn(const MappedReturn& ret, const HitCell& hit, Block& block) const {
+  SurfaceCell& cell = block.surfaceOrNew(static_cast<int>(hit.cell & 511));
+  cell.addReturn(offsetInCell(ret.p_world, cellOf(hit.tile, hit.cell), 1.0 / resolution_));
+  if (ret.temperature) cell.addTemperature(*ret.temperature, ret.stamp);
+}
+
+}  // namespace thermovox

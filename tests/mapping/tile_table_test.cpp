@@ -1,0 +1,97 @@
+#include "mapping/tile_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "mapping/thermal_map.hpp"
+#include "tests/support/same_map.hpp"
+
+namespace thermovox {
+namespace {
+
+/// A store in memory.
+class MemoryStore final : public TileStore {
+ public:
+  void put(const TileKey& tile, std::span<const BlockView> blocks) override {
+    TileBlocks copy;
+    for (const BlockView& view : blocks) copy.emplace(view.key, *view.block);
+    tiles_[tile] = std::move(copy);
+  }
+  std::optional<TileBlocks> take(const TileKey& tile) override {
+    auto node = tiles_.extract(tile);
+    if (node.empty()) return std::nullopt;
+    return std::move(node.mapped());
+  }
+  std::optional<TileBlocks> get(const TileKey& tile) const override {
+    const auto found = tiles_.find(tile);
+    return found == tiles_.end() ? std::nullopt : std::optional(found->second);
+  }
+  bool holds(const TileKey& tile) const override { return tiles_.contains(tile); }
+  std::vector<TileKey> sortedTiles() const override {
+    std::vector<TileKey> keys;
+    for (const auto& [key, blocks] : tiles_) keys.push_back(key);
+    return keys;
+  }
+
+ private:
+  std::map<TileKey, TileBlocks> tiles_;
+};
+
+/// Readings all over a place of many tiles.
+std::vector<std::vector<MappedReturn>> scatteredReadings() {
+  std::mt19937 rng(8);
+  std::uniform_real_distribution<double> coordinate(-40.0, 40.0), celsius(10.0, 90.0);
+  std::vector<std::vector<MappedReturn>> readings(40);
+  for (auto& reading : readings) {
+    const Eigen::Vector3d origin(coordinate(rng), coordinate(rng), 0.5);
+    for (int i = 0; i < 50; ++i) {
+      const TemperatureObservation seen{static_cast<float>(celsius(rng)), 0.2F, 3.0F, 0.3F};
+      reading.push_back({origin + 0.2 * Eigen::Vector3d(coordinate(rng), coordinate(rng), 0.1), origin,
+                         Time(std::chrono::seconds(i)), seen});
+    }
+  }
+  return readings;
+}
+
+TEST(SpilledMap, IsTheSameAsOneInMemory) {
+  ThermalMap in_memory({.resolution = 0.1}), spilled({.resolution = 0.1});
+  MemoryStore store;
+  constexpr std::size_t limit = 400 << 10;
+  spilled.spillTo(store, limit);
+  for (const auto& reading : scatteredReadings()) {
+    in_memory.integrate(reading, Carving::octomap);
+    spilled.integrate(reading, Carving::octomap);
+    EXPECT_LE(spilled.memoryBytes(), limit);
+  }
+  EXPECT_GT(in_memory.memoryBytes(), 10 * limit);
+  EXPECT_GT(spilled.spilledTiles(), 10U);
+  EXPECT_EQ(spilled.surfaceCount(), in_memory.surfaceCount());
+  EXPECT_EQ(spilled.blockCount(), in_memory.blockCount());
+  std::vector<CellKey> order[2];
+  forEachSurface(in_memory, [&](const CellKey& key, const SurfaceCell&) { order[0].push_back(key); });
+  forEachSurface(spilled, [&](const CellKey& key, const SurfaceCell&) { order[1].push_back(key); });
+  EXPECT_EQ(order[0], order[1]);
+  EXPECT_TRUE(test::sameMap(in_memory, spilled));
+}
+
+TEST(SpilledMap, MergesAndObserves) {
+  ThermalMap whole({.resolution = 0.1}), spilled({.resolution = 0.1});
+  MemoryStore store;
+  spilled.spillTo(store, 1 << 20);
+  for (const auto& reading : scatteredReadings()) {
+    ThermalMap mission({.resolution = 0.1});
+    mission.integrate(reading, Carving::careful);
+    whole.merge(mission);
+    spilled.merge(mission);
+    const CellKey seen = whole.keyOf(reading.front().p_world);
+    whole.observe(seen, {30.0F, 0.1F, 1.0F, 0.0F}, Time());
+    spilled.observe(seen, {30.0F, 0.1F, 1.0F, 0.0F}, Time());
+  }
+  EXPECT_GT(spilled.spilledTiles(), 10U);
+  EXPECT_TRUE(test::sameMap(whole, spilled));
+}
+
+}  // namespace
+}  // namespace thermovox
