@@ -22,31 +22,35 @@ struct Row {
   int iterations = 1;
 };
 
-/// Points a second of processor time of the rows measured so far, by workload and engine.
-std::map<std::pair<std::string, std::string>, double>& rates() {
-  static std::map<std::pair<std::string, std::string>, double> rates;
-  return rates;
+/// What the rows measured so far in this run cost, by workload and engine.
+std::map<std::pair<std::string, std::string>, Measurement>& measured() {
+  static std::map<std::pair<std::string, std::string>, Measurement> measured;
+  return measured;
 }
 
-/// The rate over that of a peer measured before in this run, where there is one.
-void compare(benchmark::State& state, const Row& row, const std::string& peer) {
-  const auto found = rates().find({row.workload, peer});
-  if (found != rates().end() && row.engine != peer)
-    state.counters["times_" + peer] = rates().at({row.workload, row.engine}) / found->second;
+/// How many times faster than a peer that was measured before, where there is one: in processor time (of two
+/// threads that of the busier one) and on the clock on the wall.
+void compare(benchmark::State& state, const Row& row, const Measurement& m, const std::string& peer) {
+  const auto found = measured().find({row.workload, peer});
+  if (found == measured().end() || row.engine == peer) return;
+  state.counters["times_" + peer] = found->second.busier_half_s / m.busier_half_s;
+  state.counters["wall_times_" + peer] = found->second.wall_s / m.wall_s;
 }
 
 void report(benchmark::State& state, const Row& row, const Measurement& m) {
-  rates()[{row.workload, row.engine}] = m.points / m.cpu_s;
+  measured()[{row.workload, row.engine}] = m;
   state.counters["points_per_cpu_s"] = m.points / m.cpu_s;
   state.counters["points_per_s"] = m.points / m.wall_s;
-  state.counters["points_per_busier_half_s"] = m.points / m.busier_half_s;
+  state.counters["points_per_busier_thread_s"] = m.points / m.busier_half_s;
   state.counters["known_cells"] = m.cells.known;
   state.counters["surface_cells"] = m.cells.surface;
   state.counters["MB"] = 1e-6 * m.memory_bytes;
   state.counters["peak_MB"] = 1e-6 * m.peak_bytes;
   state.counters["bytes_per_known_cell"] = m.memory_bytes / m.cells.known;
+  state.counters["bytes_per_known_cell_without_64_a_surface"] =
+      (m.memory_bytes - 64.0 * m.cells.surface) / m.cells.known;
   state.counters["bytes_per_surface_cell"] = m.memory_bytes / m.cells.surface;
-  for (const char* peer : {"octomap", "openvdb", "block_floor"}) compare(state, row, peer);
+  for (const char* peer : {"octomap", "openvdb", "block_floor"}) compare(state, row, m, peer);
 }
 
 void insert(benchmark::State& state, const Row& row) {
@@ -72,7 +76,7 @@ EnginePointer thermovoxWith(double resolution) {
 struct NamedWorkload {
   std::string name;
   Workload (*make)();
-  bool slow = false;  ///< too slow a peer is left out, or measured once
+  bool slow = false;  ///< slow peers are measured once
 };
 
 /// All cells between the laser and its returns are freed.
