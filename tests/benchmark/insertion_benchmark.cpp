@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -18,7 +19,7 @@ struct Row {
   std::string workload;
   std::string engine;
   Workload (*make_workload)();
-  EnginePointer (*make_engine)(double resolution);
+  std::function<EnginePointer(double resolution)> make_engine;
   int iterations = 1;
 };
 
@@ -68,9 +69,12 @@ void insert(benchmark::State& state, const Row& row) {
   report(state, row, *median);
 }
 
-template <Carving carving>
-EnginePointer thermovoxWith(double resolution) {
-  return thermalMapEngine(resolution, carving);
+/// The thermal map in every way of carving that frees cells.
+std::vector<Row> ourRows(const std::string& workload, Workload (*make_workload)()) {
+  const auto with = [](Carving carving) {
+    return [carving](double resolution) { return thermalMapEngine(resolution, carving); };
+  };
+  return {{workload, "thermovox", make_workload, with(Carving::octomap), 3}};
 }
 
 struct NamedWorkload {
@@ -91,7 +95,7 @@ std::vector<Row> carvingRows() {
 #ifdef THERMOVOX_OPENVDB
     rows.push_back({name, "openvdb", make, openvdbRays, 3});
 #endif
-    rows.push_back({name, "thermovox", make, thermovoxWith<Carving::octomap>, 3});
+    for (Row& row : ourRows(name, make)) rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -112,7 +116,8 @@ std::vector<Row> surfaceRows() {
     rows.push_back({name, "openvdb", make, openvdbPoints, 3});
 #endif
     rows.push_back({name, "block_floor", make, blockFloor, 3});
-    rows.push_back({name, "thermovox", make, thermovoxWith<Carving::none>, 3});
+    const auto ours = [](double resolution) { return thermalMapEngine(resolution, Carving::none); };
+    rows.push_back({name, "thermovox", make, ours, 3});
   }
   return rows;
 }
