@@ -11,23 +11,18 @@ namespace {
 constexpr std::array<double, kVarianceLevels> kWindowFactors{1.0, 4.0, 16.0, 64.0};
 /// Of a pixel's own width, px^2: no optics mix less than that.
 constexpr double kPixelVariance = 1.0 / 12.0;
-/// How many pixels of a row are summed at once.
-constexpr std::size_t kAtOnce = 16;
 
-/// A plane of doubles whose rows are padded to a multiple of kAtOnce. Double, because the variance is the
+/// A plane of doubles. Double, because the variance is the
 /// small difference of two large numbers: in floats a flat wall in the image of a furnace would vary by more
 /// than the camera's noise.
 struct Plane {
-  std::size_t stride = 0;
+  std::size_t width;
   std::vector<double> values;
 
   Plane(int width, int height)
-      : stride((static_cast<std::size_t>(width) + kAtOnce - 1) / kAtOnce * kAtOnce),
-        values(stride * static_cast<std::size_t>(height)) {}
-  [[nodiscard]] double* row(int v) { return values.data() + static_cast<std::size_t>(v) * stride; }
-  [[nodiscard]] const double* row(int v) const {
-    return values.data() + static_cast<std::size_t>(v) * stride;
-  }
+      : width(static_cast<std::size_t>(width)), values(this->width * static_cast<std::size_t>(height)) {}
+  [[nodiscard]] double* row(int v) { return values.data() + static_cast<std::size_t>(v) * width; }
+  [[nodiscard]] const double* row(int v) const { return values.data() + static_cast<std::size_t>(v) * width; }
 };
 
 /// e^-x for 0 <= x < 10, in arithmetic alone: the C library's own differs between processors in its last bit.
@@ -52,35 +47,48 @@ std::vector<double> gaussianHalf(double sigma) {
   return kernel;
 }
 
-/// What a row is summed from: for each weight the two rows on either side (the middle's are the same row and
-/// count once).
+/// How many weights of a kernel are taken in one passage over a row.
+constexpr std::size_t kTapsAtOnce = 4;
+
+/// What a row is summed from: for each weight the rows on either side (in the middle twice the same one, with
+/// half of its weight). A multiple of kTapsAtOnce, filled up with zero weights.
 struct Taps {
-  std::vector<double> kernel;
+  std::vector<double> weights;
   std::vector<std::array<const double*, 2>> rows;
+
+  explicit Taps(const std::vector<double>& kernel)
+      : weights((kernel.size() + kTapsAtOnce - 1) / kTapsAtOnce * kTapsAtOnce, 0.0), rows(weights.size()) {
+    std::copy(kernel.begin(), kernel.end(), weights.begin());
+    weights[0] *= 0.5;
+  }
+  /// Sets the rows of the kernel's weight k, and those of the zeros after the last.
+  void set(std::size_t k, const double* one_side, const double* other_side) {
+    std::fill(rows.begin() + static_cast<std::ptrdiff_t>(k), rows.end(), std::array{one_side, other_side});
+  }
 };
 
-THERMOVOX_INLINE_LOOP void sumTapsLoop(const Taps& taps, double* out, std::size_t stride) {
-  for (std::size_t u = 0; u < stride; u += kAtOnce) {
-    double sum[kAtOnce];
-    const double middle = taps.kernel[0];
-    for (std::size_t i = 0; i < kAtOnce; ++i) sum[i] = middle * taps.rows[0][0][u + i];
-    for (std::size_t k = 1; k < taps.kernel.size(); ++k) {
-      const double weight = taps.kernel[k];
-      const double* left = taps.rows[k][0] + u;
-      const double* right = taps.rows[k][1] + u;
-      for (std::size_t i = 0; i < kAtOnce; ++i) sum[i] += weight * (left[i] + right[i]);
+THERMOVOX_INLINE_LOOP void sumTapsLoop(const Taps& taps, double* __restrict out, std::size_t size) {
+  std::fill_n(out, size, 0.0);
+  for (std::size_t k = 0; k < taps.weights.size(); k += kTapsAtOnce) {
+    const double w0 = taps.weights[k], w1 = taps.weights[k + 1], w2 = taps.weights[k + 2],
+                 w3 = taps.weights[k + 3];
+    const auto [a0, b0] = taps.rows[k];
+    const auto [a1, b1] = taps.rows[k + 1];
+    const auto [a2, b2] = taps.rows[k + 2];
+    const auto [a3, b3] = taps.rows[k + 3];
+    for (std::size_t u = 0; u < size; ++u) {
+      out[u] += (w0 * (a0[u] + b0[u]) + w1 * (a1[u] + b1[u])) + (w2 * (a2[u] + b2[u]) + w3 * (a3[u] + b3[u]));
     }
-    for (std::size_t i = 0; i < kAtOnce; ++i) out[u + i] = sum[i];
   }
 }
-void sumTapsBaseline(const Taps& taps, double* out, std::size_t stride) {
-  sumTapsLoop(taps, out, stride);
+void sumTapsBaseline(const Taps& taps, double* out, std::size_t size) {
+  sumTapsLoop(taps, out, size);
 }
-THERMOVOX_TARGET_AVX2 void sumTapsAvx2(const Taps& taps, double* out, std::size_t stride) {
-  sumTapsLoop(taps, out, stride);
+THERMOVOX_TARGET_AVX2 void sumTapsAvx2(const Taps& taps, double* out, std::size_t size) {
+  sumTapsLoop(taps, out, size);
 }
-THERMOVOX_TARGET_AVX512 void sumTapsAvx512(const Taps& taps, double* out, std::size_t stride) {
-  sumTapsLoop(taps, out, stride);
+THERMOVOX_TARGET_AVX512 void sumTapsAvx512(const Taps& taps, double* out, std::size_t size) {
+  sumTapsLoop(taps, out, size);
 }
 
 /// Blurs a plane by the windows; the border repeats.
@@ -93,40 +101,38 @@ class Blur {
   }
 
  private:
-  void sum(const Taps& taps, double* out, std::size_t stride) const {
-    if (level_ == CpuLevel::avx512) return sumTapsAvx512(taps, out, stride);
-    if (level_ == CpuLevel::avx2) return sumTapsAvx2(taps, out, stride);
-    sumTapsBaseline(taps, out, stride);
+  void sum(const Taps& taps, double* out, std::size_t size) const {
+    if (level_ == CpuLevel::avx512) return sumTapsAvx512(taps, out, size);
+    if (level_ == CpuLevel::avx2) return sumTapsAvx2(taps, out, size);
+    sumTapsBaseline(taps, out, size);
   }
 
   [[nodiscard]] Plane alongRows(const Plane& plane, const std::vector<double>& kernel) const {
     const std::size_t radius = kernel.size() - 1;
     Plane result(width_, height_);
-    std::vector<double> padded(plane.stride + 2 * radius);
-    Taps taps{kernel, {}};
+    std::vector<double> padded(plane.width + 2 * radius);
+    Taps taps(kernel);
     for (std::size_t k = 0; k <= radius; ++k)
-      taps.rows.push_back({padded.data() + radius - k, padded.data() + radius + k});
-    const auto width = static_cast<std::size_t>(width_);
+      taps.set(k, padded.data() + radius - k, padded.data() + radius + k);
     for (int v = 0; v < height_; ++v) {
       const double* row = plane.row(v);
-      std::fill_n(padded.begin(), radius, row[0]);
-      std::copy_n(row, width, padded.begin() + static_cast<std::ptrdiff_t>(radius));
-      std::fill(padded.begin() + static_cast<std::ptrdiff_t>(radius + width), padded.end(), row[width - 1]);
-      sum(taps, result.row(v), result.stride);
+      const auto inside = padded.begin() + static_cast<std::ptrdiff_t>(radius);
+      std::fill(padded.begin(), inside, row[0]);
+      std::fill(std::copy_n(row, plane.width, inside), padded.end(), row[plane.width - 1]);
+      sum(taps, result.row(v), plane.width);
     }
     return result;
   }
 
   [[nodiscard]] Plane alongColumns(const Plane& plane, const std::vector<double>& kernel) const {
-    const int radius = static_cast<int>(kernel.size()) - 1;
     Plane result(width_, height_);
-    Taps taps{kernel, std::vector<std::array<const double*, 2>>(kernel.size())};
+    Taps taps(kernel);
     for (int v = 0; v < height_; ++v) {
-      for (int k = 0; k <= radius; ++k) {
-        taps.rows[static_cast<std::size_t>(k)] = {plane.row(std::max(v - k, 0)),
-                                                  plane.row(std::min(v + k, height_ - 1))};
+      for (int k = 0; k < static_cast<int>(kernel.size()); ++k) {
+        taps.set(static_cast<std::size_t>(k), plane.row(std::max(v - k, 0)),
+                 plane.row(std::min(v + k, height_ - 1)));
       }
-      sum(taps, result.row(v), result.stride);
+      sum(taps, result.row(v), plane.width);
     }
     return result;
   }
