@@ -131,6 +131,17 @@ ColouringBatch::~ColouringBatch() = default;
 ColouringBatch::ColouringBatch(ColouringBatch&&) noexcept = default;
 ColouringBatch& ColouringBatch::operator=(ColouringBatch&&) noexcept = default;
 
+namespace {
+
+/// The memory brings the next block while this one is worked on.
+void prefetch(const PlacedReturn& point) {
+  const char* const begin = reinterpret_cast<const char*>(&point);
+  __builtin_prefetch(begin);
+  __builtin_prefetch(begin + sizeof(PlacedReturn) - 1);
+}
+
+}  // namespace
+
 template <typename PointAt>
 std::span<const PointColour> ColouringBatch::colourEach(std::size_t count, const SeeingFrame& frame,
                                                         const PointAt& point_at) {
@@ -140,6 +151,8 @@ std::span<const PointColour> ColouringBatch::colourEach(std::size_t count, const
     const std::size_t size = std::min(kBlockPoints, count - begin);
     points.size = size;
     for (std::size_t i = 0; i < size; ++i) points.set(i, point_at(begin + i).p_world);
+    const std::size_t next_end = std::min(count, begin + 2 * kBlockPoints);
+    for (std::size_t i = begin + kBlockPoints; i < next_end; ++i) prefetch(point_at(i));
     look(*block_, frame.view.projector, level_);
     for (std::size_t i = 0; i < points.size; ++i) {
       const std::array<float, 6>& covariance = point_at(begin + points.index[i]).rig_covariance.entries;
