@@ -23,6 +23,7 @@ std::vector<GrowthPoint> growAlong(int scans) {
   const EnginePointer map = thermalMapEngine(0.1, Carving::octomap);
   std::vector<GrowthPoint> curve;
   for (int i = 0; i < scans; ++i) {
+    scan = {};  // never two of them in memory, which is the map's
     scan = hallWorkload().scan(i);
     Stopwatch watch;
     watch.start();
