@@ -98,11 +98,8 @@ void ThermalMap::updateSurfaces(std::span<const MappedReturn> reading) {
   }
 }
 
-bool ThermalMap::observe(const CellKey& key, const TemperatureObservation& observation, Time stamp) {
-  const auto found = blocks_.find(blockOf(key));
-  if (found == blocks_.end() || found->second->surface(indexInBlock(key)) == nullptr) return false;
-  found->second->surfaceOrNew(indexInBlock(key)).addTemperature(observation, stamp);
-  return true;
+void ThermalMap::observe(const CellKey& key, const TemperatureObservation& observation, Time stamp) {
+  blockOrNew(blockOf(key)).surfaceOrNew(indexInBlock(key)).addTemperature(observation, stamp);
 }
 
 void ThermalMap::merge(const ThermalMap& other) {

@@ -54,8 +54,9 @@ class ThermalMap {
   void integrate(std::span<const MappedReturn> reading, Carving carving);
 
   /// Adds a temperature to the surface in a cell, seen by a frame whether or not a return hit it at that
-  /// moment; false, with nothing done, where no return ever hit. Throws DataError when it is not finite.
-  bool observe(const CellKey& key, const TemperatureObservation& observation, Time stamp);
+  /// moment. Where no return of this map ever hit, the surface is one that another mission's map knows: here
+  /// it is then without returns and without occupancy. Throws DataError when the temperature is not finite.
+  void observe(const CellKey& key, const TemperatureObservation& observation, Time stamp);
 
   /// Adds a map of the same resolution and occupancy model (the map of another mission): log-odds add,
   /// statistics add exactly, so that the order of missions does not matter. Throws ConfigError otherwise.
