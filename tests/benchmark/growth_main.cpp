@@ -17,6 +17,7 @@ namespace thermovox::bench {
 namespace {
 
 std::vector<GrowthPoint> growAlong(int scans) {
+  keepScansOutOfTheHeap();
   std::vector<MappedReturn> scan = hallWorkload().scan(0);
   malloc_trim(0);
   const double before = residentBytes();

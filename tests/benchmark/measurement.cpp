@@ -36,6 +36,7 @@ void forgetPeak() {
 }
 
 Measurement measure(const std::function<EnginePointer()>& make, const Workload& workload) {
+  keepScansOutOfTheHeap();
   Measurement result;
   std::vector<MappedReturn> scan = workload.scan(0);  // so that its memory is there before
   malloc_trim(0);
@@ -74,6 +75,11 @@ Measurement measure(const std::function<EnginePointer()>& make, const Workload& 
 }
 
 }  // namespace
+
+void keepScansOutOfTheHeap() {
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
+}
 
 double residentBytes() {
   return statusBytes("VmRSS");
