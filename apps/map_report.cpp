@@ -9,8 +9,9 @@ namespace thermovox {
 namespace {
 
 nlohmann::ordered_json missionJson(const MissionReport& report) {
-  return {{"mission", report.mission},   {"readings", report.readings},     {"points", report.points},
-          {"coloured", report.coloured}, {"uncoloured", report.uncoloured}, {"dropped", report.dropped}};
+  return {{"mission", report.mission},   {"readings", report.readings}, {"points", report.points},
+          {"coloured", report.coloured}, {"painted", report.painted},   {"uncoloured", report.uncoloured},
+          {"dropped", report.dropped}};
 }
 
 void printCounts(const char* title, const std::map<std::string, std::size_t>& counts) {
@@ -41,6 +42,7 @@ void printText(const MapResult& result, const std::filesystem::path& station) {
   for (const MissionReport& report : result.missions) {
     std::cout << report.mission << ": " << report.readings << " readings, " << report.points << " points, "
               << report.coloured << " with a temperature\n";
+    if (report.painted > 0) std::cout << "  painted: " << report.painted << " cells\n";
     printCounts("without:", report.uncoloured);
     printCounts("dropped:", report.dropped);
   }

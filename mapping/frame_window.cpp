@@ -49,6 +49,15 @@ struct FrameWindow::Frame {
   }
 };
 
+/// Nearest in time first, of two equally near ones the earlier.
+struct FrameWindow::Nearer {
+  Time stamp;
+  [[nodiscard]] bool operator()(const Frame* a, const Frame* b) const {
+    return std::pair(distance(a->frame.stamp, stamp), a->frame.stamp) <
+           std::pair(distance(b->frame.stamp, stamp), b->frame.stamp);
+  }
+};
+
 FrameWindow::FrameWindow(const ThermalCamera& camera, const Options& options)
     : camera_(camera), options_(options) {
   options_.lookahead = std::max(options_.lookahead, options_.limit);
@@ -87,23 +96,104 @@ std::variant<FrameColour, Uncoloured> FrameWindow::colourBy(Frame& frame, const 
   return FrameColour{found, frame.countSample(found.pixel)};
 }
 
-std::variant<FrameColour, Uncoloured> FrameWindow::colour(const PlacedReturn& placed) {
-  candidates_.clear();
+FrameWindow::Candidates FrameWindow::candidatesAt(Time stamp) const {
+  Candidates candidates;
   for (std::size_t i = 0; i < closed_; ++i) {
-    if (distance(frames_[i]->frame.stamp, placed.stamp) <= options_.limit)
-      candidates_.push_back(frames_[i].get());
+    if (distance(frames_[i]->frame.stamp, stamp) <= options_.limit) candidates.push_back(frames_[i].get());
   }
-  std::sort(candidates_.begin(), candidates_.end(), [&](const Frame* a, const Frame* b) {
-    return std::pair(distance(a->frame.stamp, placed.stamp), a->frame.stamp) <
-           std::pair(distance(b->frame.stamp, placed.stamp), b->frame.stamp);
-  });
-  std::variant<FrameColour, Uncoloured> why_not = Uncoloured::no_frame;
-  for (Frame* frame : candidates_) {
-    auto result = colourBy(*frame, placed);
-    if (std::holds_alternative<FrameColour>(result)) return result;
-    if (frame == candidates_.front()) why_not = result;
+  std::sort(candidates.begin(), candidates.end(), Nearer{stamp});
+  return candidates;
+}
+
+std::variant<FrameColour, Uncoloured> FrameWindow::colour(const PlacedReturn& placed) {
+  const Candidates candidates = candidatesAt(placed.stamp);
+  Answer why_not = Uncoloured::no_frame;
+  for (Frame* frame : candidates) {
+    Answer answer = colourBy(*frame, placed);
+    if (std::holds_alternative<FrameColour>(answer)) return answer;
+    if (frame == candidates.front()) why_not = answer;
   }
   return why_not;
+}
+
+bool FrameWindow::areCandidatesAt(const Candidates& candidates, Time stamp) const {
+  std::size_t within = 0;
+  for (std::size_t i = 0; i < closed_; ++i)
+    within += distance(frames_[i]->frame.stamp, stamp) <= options_.limit ? 1 : 0;
+  if (within != candidates.size()) return false;
+  const bool all_within = std::all_of(candidates.begin(), candidates.end(), [&](const Frame* frame) {
+    return distance(frame->frame.stamp, stamp) <= options_.limit;
+  });
+  return all_within && std::is_sorted(candidates.begin(), candidates.end(), Nearer{stamp});
+}
+
+void FrameWindow::findCandidates(std::span<const PlacedReturn> reading) {
+  candidates_.clear();
+  candidates_of_.clear();
+  for (const PlacedReturn& placed : reading) {
+    // Neighbours in time mostly have the same.
+    if (candidates_.empty() || !areCandidatesAt(candidates_.back(), placed.stamp))
+      candidates_.push_back(candidatesAt(placed.stamp));
+    candidates_of_.push_back(static_cast<std::uint32_t>(candidates_.size() - 1));
+  }
+}
+
+std::vector<FrameWindow::Question> FrameWindow::questions(std::size_t attempt) const {
+  std::vector<Question> questions;
+  for (std::uint32_t i = 0; i < candidates_of_.size(); ++i) {
+    const Candidates& candidates = candidates_[candidates_of_[i]];
+    if (coloured_by_[i] != nullptr || attempt >= candidates.size()) continue;
+    Frame* const frame = candidates[attempt];
+    auto found = std::find_if(questions.rbegin(), questions.rend(),
+                              [&](const Question& question) { return question.frame == frame; });
+    if (found == questions.rend()) {
+      questions.push_back({frame, {}});
+      found = questions.rbegin();
+    }
+    found->returns.push_back(i);
+  }
+  return questions;
+}
+
+void FrameWindow::ask(const Question& question, std::span<const PlacedReturn> reading, std::size_t attempt) {
+  Frame& frame = *question.frame;
+  if (!frame.sight) {
+    const Uncoloured reason = frame.T_world_camera ? Uncoloured::no_frame : Uncoloured::no_pose_for_frame;
+    if (attempt > 0) return;
+    for (const std::uint32_t i : question.returns) answers_[i] = reason;
+    return;
+  }
+  const std::span<const PointColour> colours =
+      batch_.colour(reading, question.returns, {frame.sight->view, camera_, *frame.sight->occluder});
+  for (std::size_t k = 0; k < colours.size(); ++k) {
+    const std::uint32_t i = question.returns[k];
+    const std::variant<Colour, NoColour> result = colours[k].by(frame.frame.stamp);
+    if (const Colour* colour = std::get_if<Colour>(&result)) {
+      answers_[i] = FrameColour{*colour};
+      coloured_by_[i] = &frame;
+    } else if (attempt == 0) {
+      answers_[i] = reasonOf(std::get<NoColour>(result));
+    }
+  }
+}
+
+std::span<const std::variant<FrameColour, Uncoloured>> FrameWindow::colour(
+    std::span<const PlacedReturn> reading) {
+  findCandidates(reading);
+  answers_.assign(reading.size(), Uncoloured::no_frame);
+  coloured_by_.assign(reading.size(), nullptr);
+  std::size_t attempts = 0;
+  for (const Candidates& candidates : candidates_) attempts = std::max(attempts, candidates.size());
+  for (std::size_t attempt = 0; attempt < attempts; ++attempt) {
+    for (const Question& question : questions(attempt)) ask(question, reading, attempt);
+  }
+  // The samples of a pixel are numbered in the order of the returns, whichever attempt found them.
+  for (std::size_t i = 0; i < reading.size(); ++i) {
+    if (coloured_by_[i] == nullptr) continue;
+    FrameColour& found = std::get<FrameColour>(answers_[i]);
+    found.sample = coloured_by_[i]->countSample(found.colour.pixel);
+  }
+  return answers_;
 }
 
 void FrameWindow::dropBefore(Time earliest) {

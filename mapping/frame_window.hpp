@@ -1,13 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
-#include "projection/colouring.hpp"
+#include "projection/colouring_batch.hpp"
 #include "projection/occluder.hpp"
 #include "projection/rig.hpp"
 
@@ -55,20 +57,41 @@ class FrameWindow {
   /// nearest frame does not see may take it from another within the limit; if none sees it, the nearest says
   /// why.
   [[nodiscard]] std::variant<FrameColour, Uncoloured> colour(const PlacedReturn& placed);
+  /// The same for each return of a reading, as if one were asked after the other, but many times faster;
+  /// valid until the next call.
+  [[nodiscard]] std::span<const std::variant<FrameColour, Uncoloured>> colour(
+      std::span<const PlacedReturn> reading);
 
   /// Forgets closed frames that no return from `earliest` on can ask for.
   void dropBefore(Time earliest);
 
  private:
   struct Frame;
-  [[nodiscard]] std::variant<FrameColour, Uncoloured> colourBy(Frame& frame,
-                                                               const PlacedReturn& placed) const;
+  struct Nearer;
+  using Candidates = std::vector<Frame*>;  ///< the frames that a return may ask, nearest first
+  using Answer = std::variant<FrameColour, Uncoloured>;
+  /// The returns of a reading that ask one frame.
+  struct Question {
+    Frame* frame;
+    std::vector<std::uint32_t> returns;
+  };
+  [[nodiscard]] Candidates candidatesAt(Time stamp) const;
+  [[nodiscard]] bool areCandidatesAt(const Candidates& candidates, Time stamp) const;
+  [[nodiscard]] Answer colourBy(Frame& frame, const PlacedReturn& placed) const;
+  void findCandidates(std::span<const PlacedReturn> reading);
+  [[nodiscard]] std::vector<Question> questions(std::size_t attempt) const;
+  void ask(const Question& question, std::span<const PlacedReturn> reading, std::size_t attempt);
 
   const ThermalCamera& camera_;
   Options options_;
   std::deque<std::unique_ptr<Frame>> frames_;  ///< ascending; the closed ones first
   std::size_t closed_ = 0;
-  std::vector<Frame*> candidates_;  ///< of the return at hand
+
+  ColouringBatch batch_;
+  std::vector<Candidates> candidates_;        ///< those of the reading at hand
+  std::vector<std::uint32_t> candidates_of_;  ///< which of them are each return's
+  std::vector<Answer> answers_;               ///< to each return
+  std::vector<Frame*> coloured_by_;           ///< null while nothing has coloured it
 };
 
 }  // namespace thermovox

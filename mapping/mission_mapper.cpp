@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "mapping/painting.hpp"
 #include "mapping/surfaces_in_view.hpp"
 #include "projection/error.hpp"
 
@@ -41,6 +42,12 @@ std::string whyNoPoints(const MissionReport& report, std::size_t without_pose) {
   return message + "), expected poses of the same time and clock";
 }
 
+double widestRangeSigma(const Rig& rig) {
+  double widest = 0.0;
+  for (const Laser& laser : rig.lasers) widest = std::max(widest, laser.range_sigma);
+  return widest;
+}
+
 MappedReturn mappedReturn(const PlacedReturn& placed, const std::optional<FrameColour>& found) {
   MappedReturn mapped{placed.p_world, placed.origin_world, placed.stamp, std::nullopt};
   if (found) {
@@ -65,6 +72,8 @@ void MissionMapper::Options::validate() const {
   if (frame_limit < Duration::zero()) throw ConfigError("frame_limit: expected 0 s or more");
   if (lookahead < Duration::zero()) throw ConfigError("lookahead: expected 0 s or more");
   visibility.validate();
+  scene_visibility.validate();
+  if (pass != Pass::only && scene == nullptr) throw ConfigError("a second pass: expected a scene");
 }
 
 MissionMapper::MissionMapper(const Mission& mission, ThermalMap& map, const Options& options, Sink sink)
@@ -153,49 +162,97 @@ void MissionMapper::closeFrame() {
     return reading.first_stamp - options_.frame_limit <= stamp &&
            stamp <= reading.last_stamp + options_.frame_limit;
   });
-  if (!wanted) return frames_->closeNext(nullptr);
-  frames_->closeNext([this](const ThermalView& view) -> std::unique_ptr<Occluder> {
-    const Camera& camera = mission_.rig.thermal_camera->camera;
-    auto depths = std::make_unique<DepthSectors>(camera, view.T_camera_world, options_.visibility);
-    addSurfacesInView(map_, view.T_camera_world, *depths);
-    for (const WaitingReading& reading : readings_) {
-      for (const PlacedReturn& placed : reading.returns) depths->add(placed.p_world);
-    }
-    depths->finish();
-    return depths;
+  if (!wanted && options_.pass != Pass::paint) return frames_->closeNext(nullptr);
+  frames_->closeNext([this](const ThermalView& view) {
+    return options_.pass == Pass::only ? occluderFor(view) : secondLook(view);
   });
+}
+
+std::unique_ptr<Occluder> MissionMapper::occluderFor(const ThermalView& view) {
+  const Camera& camera = mission_.rig.thermal_camera->camera;
+  auto depths = std::make_unique<DepthSectors>(camera, view.T_camera_world, options_.visibility);
+  addSurfacesInView(map_, view.T_camera_world, *depths);
+  for (const WaitingReading& reading : readings_) {
+    for (const PlacedReturn& placed : reading.returns) depths->add(placed.p_world);
+  }
+  if (options_.scene != nullptr) {
+    const auto add = [&depths](const SceneSurface& surface) { depths->add(surface.p_world); };
+    options_.scene->forEachInView(camera, view.T_camera_world, farthestWaiting(view), add);
+  }
+  depths->finish();
+  return depths;
+}
+
+std::unique_ptr<Occluder> MissionMapper::secondLook(const ThermalView& view) {
+  const ThermalCamera& camera = *mission_.rig.thermal_camera;
+  double range = farthestWaiting(view);
+  if (options_.pass == Pass::paint) range = std::max(range, paintRange(camera, map_.resolution()));
+  auto scene_view = std::make_unique<SceneView>(camera.camera, view.T_camera_world, *options_.scene, range,
+                                                options_.scene_visibility);
+  if (options_.pass == Pass::paint) paint(view, camera, *scene_view, widestRangeSigma(mission_.rig), map_);
+  return scene_view;
+}
+
+double MissionMapper::farthestWaiting(const ThermalView& view) const {
+  double farthest = 0.0;
+  for (const WaitingReading& reading : readings_) {
+    for (const PlacedReturn& placed : reading.returns) {
+      farthest = std::max(farthest, (placed.p_world - view.T_world_camera.translation).norm());
+    }
+  }
+  return farthest;
 }
 
 void MissionMapper::mapReading(const WaitingReading& reading) {
   std::vector<ColouredReturn> coloured;
   std::vector<MappedReturn> mapped;
+  std::span<const std::variant<FrameColour, Uncoloured>> answers;
   coloured.reserve(reading.returns.size());
   mapped.reserve(reading.returns.size());
-  for (const PlacedReturn& placed : reading.returns) {
-    const std::optional<FrameColour> found = colourReturn(placed);
+  if (frames_) answers = frames_->colour(reading.returns);
+  for (std::size_t i = 0; i < reading.returns.size(); ++i) {
+    const PlacedReturn& placed = reading.returns[i];
+    const std::optional<FrameColour> found = counted(frames_ ? answers[i] : Uncoloured::no_camera);
     mapped.push_back(mappedReturn(placed, found));
     coloured.push_back({placed, found ? std::optional(found->colour) : std::nullopt});
     report_.first_stamp = std::min(report_.first_stamp.value_or(placed.stamp), placed.stamp);
     report_.last_stamp = std::max(report_.last_stamp.value_or(placed.stamp), placed.stamp);
   }
   report_.points += mapped.size();
-  map_.integrate(mapped, options_.carving);
+  addToMap(mapped);
   if (sink_) sink_(coloured);
 }
 
-std::optional<FrameColour> MissionMapper::colourReturn(const PlacedReturn& placed) {
-  const std::variant<FrameColour, Uncoloured> result =
-      frames_ ? frames_->colour(placed) : std::variant<FrameColour, Uncoloured>(Uncoloured::no_camera);
-  if (const Uncoloured* reason = std::get_if<Uncoloured>(&result)) {
+void MissionMapper::addToMap(std::span<const MappedReturn> reading) {
+  if (options_.pass == Pass::only) return map_.integrate(reading, options_.carving);
+  if (options_.pass == Pass::paint) return;
+  for (const MappedReturn& ret : reading) {
+    if (ret.temperature) map_.observe(map_.keyOf(ret.p_world), *ret.temperature, ret.stamp);
+  }
+}
+
+void MissionMapper::countPainted() {
+  if (options_.pass != Pass::paint) return;
+  map_.forEachBlock([this](const BlockKey&, const Block& block) {
+    for (int index = 0; index < kBlockCells; ++index) {
+      const SurfaceCell* surface = block.surface(index);
+      report_.painted += surface != nullptr && surface->observations > 0;
+    }
+  });
+}
+
+std::optional<FrameColour> MissionMapper::counted(const std::variant<FrameColour, Uncoloured>& answer) {
+  if (const Uncoloured* reason = std::get_if<Uncoloured>(&answer)) {
     uncoloured_.add(*reason);
     return std::nullopt;
   }
   ++report_.coloured;
-  return std::get<FrameColour>(result);
+  return std::get<FrameColour>(answer);
 }
 
 MissionReport MissionMapper::finish() {
   advanceTo(Time::max());
+  countPainted();
   report_.dropped = namedCounts(dropped_);
   report_.uncoloured = namedCounts(uncoloured_);
   if (report_.points == 0) {

@@ -10,6 +10,7 @@
 
 #include "mapping/frame_window.hpp"
 #include "mapping/mission_report.hpp"
+#include "mapping/scene_view.hpp"
 #include "mapping/thermal_map.hpp"
 #include "projection/depth_sectors.hpp"
 #include "projection/mission.hpp"
@@ -34,8 +35,18 @@ struct ColouredReturn {
 ///
 /// Returns that one pixel of one frame colours share its noise, so that the map takes the k-th of them with k
 /// times its sigma: together they weigh less than 1.65 of the first.
+///
+/// Mapped in two passes, a mission's geometry comes first (mapMission without frames, into the same map). The
+/// second pass adds no geometry: it tests the colours against the whole scene (SceneView), and may paint
+/// every frame onto all of the scene that it sees.
 class MissionMapper {
  public:
+  /// What a mapper brings into the map.
+  enum class Pass {
+    only,     ///< geometry and colours, as they come
+    colours,  ///< the second of two: the mission's geometry is in the map and in the scene
+    paint,    ///< likewise, and frames instead of returns give the map its temperatures
+  };
   struct Options {
     Carving carving = Carving::octomap;
     /// Farthest in time that a frame may be from the return it colours. Zero: half a frame period + 50 ms
@@ -44,6 +55,11 @@ class MissionMapper {
     /// Laser data after a frame that its visibility waits for; at least the frame limit is taken.
     Duration lookahead = std::chrono::milliseconds(500);
     DepthSectors::Options visibility;
+    Pass pass = Pass::only;
+    /// Geometry that hides things besides what the mapper itself has mapped; must outlive it. The second pass
+    /// needs one that holds the map itself.
+    SceneSurfaces* scene = nullptr;
+    SceneView::Options scene_visibility;
     void validate() const;  ///< throws ConfigError naming the field
   };
   /// Receives every return that entered the map, readings in the order of their stamps.
@@ -65,8 +81,14 @@ class MissionMapper {
   struct WaitingReading;
   void advanceTo(Time now);
   void closeFrame();
+  [[nodiscard]] std::unique_ptr<Occluder> occluderFor(const ThermalView& view);
+  [[nodiscard]] std::unique_ptr<Occluder> secondLook(const ThermalView& view);
+  /// Distance of the farthest return that may ask the frame, metres.
+  [[nodiscard]] double farthestWaiting(const ThermalView& view) const;
+  void countPainted();
   void mapReading(const WaitingReading& reading);
-  [[nodiscard]] std::optional<FrameColour> colourReturn(const PlacedReturn& placed);
+  void addToMap(std::span<const MappedReturn> reading);
+  [[nodiscard]] std::optional<FrameColour> counted(const std::variant<FrameColour, Uncoloured>& answer);
   [[nodiscard]] Time earliestWaiting(Time now) const;
 
   const Mission& mission_;

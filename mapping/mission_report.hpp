@@ -49,6 +49,7 @@ struct MissionReport {
   std::map<std::string, std::size_t>
       uncoloured;  ///< by the reason's name; reasons without a return are left out
   std::map<std::string, std::size_t> dropped;  ///< likewise
+  std::size_t painted = 0;                     ///< cells of the map that frames coloured, where they paint
   std::size_t frames = 0;
   std::size_t frames_without_pose = 0;
   std::optional<Time> first_stamp;  ///< of the points

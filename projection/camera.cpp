@@ -12,8 +12,6 @@
 namespace thermovox {
 namespace {
 
-constexpr double kMinDepth = 1e-6;  // metres
-constexpr double kMaxDepth = std::numeric_limits<double>::max();
 using Polynomial = std::vector<double>;  // coefficients, lowest power first
 
 Polynomial multiply(const Polynomial& a, const Polynomial& b) {
@@ -80,40 +78,6 @@ double kannalaBrandtRadius(std::span<const double, 8> d) {
   return theta < M_PI / 2 ? std::tan(theta) : std::numeric_limits<double>::infinity();
 }
 
-Eigen::Matrix2d brownConradyJacobian(std::span<const double, 8> d, const Eigen::Vector2d& n) {
-  const double x = n.x();
-  const double y = n.y();
-  const double s = n.squaredNorm();
-  const double numerator = 1.0 + s * (d[0] + s * (d[1] + s * d[4]));
-  const double denominator = 1.0 + s * (d[5] + s * (d[6] + s * d[7]));
-  const double numerator_slope = d[0] + s * (2.0 * d[1] + 3.0 * s * d[4]);
-  const double denominator_slope = d[5] + s * (2.0 * d[6] + 3.0 * s * d[7]);
-  const double radial = numerator / denominator;
-  const double radial_slope = (numerator_slope - radial * denominator_slope) / denominator;  // d radial / d s
-  const double p1 = d[2];
-  const double p2 = d[3];
-  Eigen::Matrix2d j;
-  j(0, 0) = radial + 2.0 * x * x * radial_slope + 2.0 * p1 * y + 6.0 * p2 * x;
-  j(0, 1) = 2.0 * x * y * radial_slope + 2.0 * p1 * x + 2.0 * p2 * y;
-  j(1, 0) = j(0, 1);
-  j(1, 1) = radial + 2.0 * y * y * radial_slope + 6.0 * p1 * y + 2.0 * p2 * x;
-  return j;
-}
-
-Eigen::Matrix2d kannalaBrandtJacobian(std::span<const double, 8> d, const Eigen::Vector2d& n) {
-  const double r = n.norm();
-  if (r < 1e-8) return Eigen::Matrix2d::Identity();
-  const double theta = std::atan(r);
-  const double t2 = theta * theta;
-  const double theta_d = theta * (1.0 + t2 * (d[0] + t2 * (d[1] + t2 * (d[2] + t2 * d[3]))));
-  const double theta_d_slope =
-      1.0 + t2 * (3.0 * d[0] + t2 * (5.0 * d[1] + t2 * (7.0 * d[2] + t2 * 9.0 * d[3])));
-  const Eigen::Vector2d radial = n / r;
-  const double along = theta_d_slope / (1.0 + r * r);
-  const double across = theta_d / r;
-  return across * Eigen::Matrix2d::Identity() + (along - across) * radial * radial.transpose();
-}
-
 void checkIntrinsics(const Intrinsics& in) {
   if (in.width_px <= 0 || in.height_px <= 0) {
     throw ConfigError("camera: image size is " + std::to_string(in.width_px) + " x " +
@@ -162,6 +126,12 @@ double undistortedRadius(const Intrinsics& intrinsics, double distorted, double 
   return 0.5 * (low + high);
 }
 
+MaybePixel pixelOf(const LensNumbers& lens, const Eigen::Vector3d& p_camera) {
+  return withLensModel(lens.model, [&](auto model) {
+    return pixelOf<model.value>(lens, p_camera.x(), p_camera.y(), p_camera.z());
+  });
+}
+
 }  // namespace
 
 double monotonicRadius(LensModel model, std::span<const double, 8> d) {
@@ -177,37 +147,34 @@ double monotonicRadius(LensModel model, std::span<const double, 8> d) {
 }
 
 Eigen::Matrix2d distortionJacobian(LensModel model, std::span<const double, 8> d, const Eigen::Vector2d& n) {
-  switch (model) {
-    case LensModel::brown_conrady:
-      return brownConradyJacobian(d, n);
-    case LensModel::kannala_brandt:
-      return kannalaBrandtJacobian(d, n);
-    case LensModel::pinhole:
-      break;
-  }
-  return Eigen::Matrix2d::Identity();
+  return withLensModel(model, [&](auto lens) -> Eigen::Matrix2d {
+    const Symmetric2<double> j = distortionJacobianBy<lens.value>(d.data(), n.x(), n.y());
+    Eigen::Matrix2d jacobian;
+    jacobian << j.xx, j.xy, j.xy, j.yy;
+    return jacobian;
+  });
 }
 
 Camera::Camera(const Intrinsics& intrinsics) : intrinsics_(intrinsics) {
   checkIntrinsics(intrinsics_);
   valid_radius_ = monotonicRadius(intrinsics_.model, distortionOf(intrinsics_));
-  valid_radius_squared_ = valid_radius_ * valid_radius_;
+  numbers_ = {.model = intrinsics_.model,
+              .parameters = intrinsics_.parameters,
+              .valid_radius_squared = valid_radius_ * valid_radius_,
+              .width_px = static_cast<double>(width()),
+              .height_px = static_cast<double>(height())};
 }
 
 std::optional<Eigen::Vector2d> Camera::projectUnbounded(const Eigen::Vector3d& p_camera) const {
-  const double z = p_camera.z();
-  if (!(z > kMinDepth && z <= kMaxDepth)) return std::nullopt;  // written so that NaN is rejected too
-  if (!(p_camera.head<2>().squaredNorm() < valid_radius_squared_ * z * z)) return std::nullopt;
-  return pixelFromCamera(intrinsics_.model, intrinsics_.parameters.data(), p_camera);
+  const MaybePixel pixel = pixelOf(numbers_, p_camera);
+  if (!pixel.valid) return std::nullopt;
+  return Eigen::Vector2d(pixel.u, pixel.v);
 }
 
 std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p_camera) const {
-  const std::optional<Eigen::Vector2d> pixel = projectUnbounded(p_camera);
-  if (!pixel) return std::nullopt;
-  const bool inside =
-      pixel->x() >= -0.5 && pixel->y() >= -0.5 && pixel->x() < width() - 0.5 && pixel->y() < height() - 0.5;
-  if (!inside) return std::nullopt;
-  return pixel;
+  const MaybePixel pixel = pixelOf(numbers_, p_camera);
+  if (!pixel.inside) return std::nullopt;
+  return Eigen::Vector2d(pixel.u, pixel.v);
 }
 
 std::optional<Eigen::Vector3d> Camera::rayFromPixel(const Eigen::Vector2d& pixel) const {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "projection/camera_model.hpp"
+#include "projection/projector.hpp"
 
 namespace thermovox {
 
@@ -34,6 +34,9 @@ class Camera {
   [[nodiscard]] double fx() const { return intrinsics_.parameters[kFx]; }
   [[nodiscard]] double fy() const { return intrinsics_.parameters[kFy]; }
 
+  /// The same camera for loops over many points.
+  [[nodiscard]] const LensNumbers& numbers() const { return numbers_; }
+
   /// Radius in normalised coordinates (tan of the angle off the axis) up to which the distortion is
   /// monotonic; infinity where it always is. Beyond it strong distortion folds the world back into the
   /// image, so nothing beyond it projects.
@@ -56,7 +59,7 @@ class Camera {
  private:
   Intrinsics intrinsics_;
   double valid_radius_ = 0.0;
-  double valid_radius_squared_ = 0.0;
+  LensNumbers numbers_;
 };
 
 /// d distorted / d undistorted normalised coordinates.

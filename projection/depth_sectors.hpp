@@ -5,9 +5,39 @@
 
 #include "projection/camera.hpp"
 #include "projection/occluder.hpp"
+#include "projection/point_block.hpp"
 #include "projection/pose.hpp"
 
 namespace thermovox {
+
+/// How the pixels of an image fall into bins, with a rim of bins all around.
+struct BinGrid {
+  double bin_px = 1.0;  ///< edge of a bin
+  int rim = 0;
+  int columns = 0;  ///< bins across image and rim
+  int rows = 0;
+
+  /// Does a bin lie under the pixel's coordinate along a side of so many bins?
+  [[nodiscard]] bool covers(double pixel, int bins) const {
+    const double bin = (pixel + 0.5) / bin_px;
+    return bin >= -rim && bin < bins - rim;
+  }
+  /// Number of the pixel's bin, row by row; where there is none, or it is NaN, of an outermost one.
+  [[nodiscard]] THERMOVOX_INLINE_LOOP int binOf(double u, double v) const {
+    return along(v, rows) * columns + along(u, columns);
+  }
+
+ private:
+  [[nodiscard]] THERMOVOX_INLINE_LOOP int along(double pixel, int bins) const {
+    const double bin = (pixel + 0.5) / bin_px;
+    const double least = -rim;
+    const double most = bins - 1 - rim;
+    const double at_least = bin > least ? bin : least;
+    const double within = at_least < most ? at_least : most;
+    const int truncated = static_cast<int>(within);
+    return (within < truncated ? truncated - 1 : truncated) + rim;
+  }
+};
 
 /// Visibility from one frame, decided by the points that a laser measured around it.
 ///
@@ -29,8 +59,9 @@ class DepthSectors final : public Occluder {
     void validate() const;  ///< throws ConfigError naming the field
   };
 
-  /// An empty view of a camera that stands at T_camera_world.
-  DepthSectors(const Camera& camera, const Pose& T_camera_world, const Options& options);
+  /// An empty view of a camera that stands at T_camera_world. What it says is the same at every level.
+  DepthSectors(const Camera& camera, const Pose& T_camera_world, const Options& options,
+               CpuLevel level = cpuLevel());
 
   [[nodiscard]] const Pose& T_camera_world() const { return T_camera_world_; }
 
@@ -43,25 +74,20 @@ class DepthSectors final : public Occluder {
   [[nodiscard]] bool hides(const Sight& sight) const override {
     return sight.depth > hiddenBeyond(sight.pixel);
   }
+  void hide(const Sights& sights, std::span<std::uint8_t> hidden) const override;
   /// Depth (z, metres) beyond which nothing is visible at the pixel; infinity where all is.
   [[nodiscard]] float hiddenBeyond(const Eigen::Vector2d& pixel) const;
 
  private:
-  struct Neighbour {
-    std::ptrdiff_t offset;  ///< in nearest_
-    std::size_t sector;
-    float scale;  ///< depth it hides beyond, as a factor of its own depth
-  };
-  using Ring = std::vector<Neighbour>;  ///< the neighbours at one distance
-  [[nodiscard]] std::vector<Ring> rings() const;
-  [[nodiscard]] float depthHiddenBeyond(std::ptrdiff_t bin, const std::vector<Ring>& rings) const;
-  [[nodiscard]] std::ptrdiff_t binOf(const Eigen::Vector2d& pixel) const;
+  void addPending();
 
-  const Camera* camera_;
+  double focal_px_;
+  Projector projector_;
   Pose T_camera_world_;
   Options options_;
-  int columns_ = 0;  ///< bins of the image and its rim
-  int rows_ = 0;
+  CpuLevel level_;
+  BinGrid grid_;
+  PointBlock pending_;          ///< points that are not in nearest_ yet
   std::vector<float> nearest_;  ///< smallest depth in a bin, infinity where no point fell
   std::vector<float> hidden_beyond_;
 };

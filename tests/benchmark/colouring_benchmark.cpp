@@ -8,9 +8,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <random>
+#include <span>
+#include <string>
 #include <vector>
 
-#include "projection/colouring.hpp"
+#include "projection/colouring_batch.hpp"
 #include "projection/depth_sectors.hpp"
 
 namespace thermovox {
@@ -143,37 +145,100 @@ class OpenCvColouring {
   cv::Mat image_, map_, celsius_;
 };
 
+/// A benchmark's clock and what it says of the points that went through: their share with a colour, and how
+/// many times OpenCV's rate that is, measured here and now.
+class Account {
+ public:
+  Account(benchmark::State& state, const Scene& scene) : state_(state), scene_(scene) {}
+  ~Account() {
+    const double seconds = static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC;
+    const double points = static_cast<double>(state_.iterations()) * kPoints;
+    state_.SetItemsProcessed(state_.iterations() * kPoints);
+    state_.counters["coloured"] = static_cast<double>(coloured) / kPoints;
+    state_.counters["times_opencv"] = points / seconds / OpenCvColouring(scene_).rate();
+  }
+  std::size_t coloured = 0;
+
+ private:
+  benchmark::State& state_;
+  const Scene& scene_;
+  std::clock_t start_ = std::clock();
+};
+
+/// One point after the other.
 void colourPoints(benchmark::State& state, Spread spread, const Occluder& occluder) {
   const Scene& scene = sceneOf(spread);
-  std::size_t coloured = 0;
-  const std::clock_t start = std::clock();
+  Account account(state, scene);
   for (auto _ : state) {
-    coloured = 0;
-    double sum = 0.0;
+    account.coloured = 0;
     for (const PlacedReturn& point : scene.points) {
       const auto result = colour(point, scene.view, scene.camera, occluder);
-      if (const Colour* c = std::get_if<Colour>(&result)) {
-        ++coloured;
-        sum += c->celsius + c->sigma;
-      }
+      account.coloured += std::holds_alternative<Colour>(result) ? 1 : 0;
+      benchmark::DoNotOptimize(&result);
     }
-    benchmark::DoNotOptimize(sum);
   }
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  const double points = static_cast<double>(state.iterations()) * kPoints;
-  state.SetItemsProcessed(state.iterations() * kPoints);
-  state.counters["coloured"] = static_cast<double>(coloured) / kPoints;
-  state.counters["times_opencv"] = points / seconds / OpenCvColouring(scene).rate();  // measured here and now
 }
-
 void colourInView(benchmark::State& state) {
   colourPoints(state, Spread::in_view, sceneOf(Spread::in_view).sectors);
 }
-void colourInViewWithoutOccluder(benchmark::State& state) {
-  colourPoints(state, Spread::in_view, NoOccluder());
-}
 void colourAllRound(benchmark::State& state) {
   colourPoints(state, Spread::all_round, sceneOf(Spread::all_round).sectors);
+}
+
+/// All at once, at a level of vector instructions. Through memory go a PlacedReturn and a PointColour
+/// for every point.
+void colourBatch(benchmark::State& state, Spread spread, const Occluder& occluder) {
+  const auto level = static_cast<CpuLevel>(state.range(0));
+  state.SetLabel(std::string(nameOf(level)));
+  if (level > cpuLevel()) return state.SkipWithError("not on this processor");
+  const Scene& scene = sceneOf(spread);
+  ColouringBatch batch(level);
+  Account account(state, scene);
+  std::span<const PointColour> colours;
+  for (auto _ : state) {
+    colours = batch.colour(scene.points, {scene.view, scene.camera, occluder});
+    benchmark::DoNotOptimize(colours.data());
+    benchmark::ClobberMemory();
+  }
+  account.coloured =
+      static_cast<std::size_t>(std::count_if(colours.begin(), colours.end(), [](const PointColour& point) {
+        return point.outcome == PointColour::Outcome::coloured;
+      }));
+  state.counters["bytes_a_point"] = sizeof(PlacedReturn) + sizeof(PointColour);
+}
+void colourBatchInView(benchmark::State& state) {
+  colourBatch(state, Spread::in_view, sceneOf(Spread::in_view).sectors);
+}
+void colourBatchInViewWithoutOccluder(benchmark::State& state) {
+  colourBatch(state, Spread::in_view, NoOccluder());
+}
+void colourBatchAllRound(benchmark::State& state) {
+  colourBatch(state, Spread::all_round, sceneOf(Spread::all_round).sectors);
+}
+
+/// Projection and bilinear sampling alone: what OpenCV does, too.
+void sampleBatch(benchmark::State& state, Spread spread) {
+  const auto level = static_cast<CpuLevel>(state.range(0));
+  state.SetLabel(std::string(nameOf(level)));
+  if (level > cpuLevel()) return state.SkipWithError("not on this processor");
+  const Scene& scene = sceneOf(spread);
+  ColouringBatch batch(level);
+  Account account(state, scene);
+  std::span<const float> celsius;
+  for (auto _ : state) {
+    celsius = batch.sample(scene.positions, scene.view);
+    benchmark::DoNotOptimize(celsius.data());
+    benchmark::ClobberMemory();
+  }
+  account.coloured = static_cast<std::size_t>(
+      std::count_if(celsius.begin(), celsius.end(), [](float c) { return !std::isnan(c); }));
+  state.counters["bytes_a_point"] = sizeof(Eigen::Vector3d) + sizeof(float);
+}
+void sampleBatchInView(benchmark::State& state) {
+  sampleBatch(state, Spread::in_view);
+}
+void sampleBatchAllRound(benchmark::State& state) {
+  sampleBatch(state, Spread::all_round);
 }
 
 void openCv(benchmark::State& state, Spread spread) {
@@ -220,8 +285,12 @@ void makeDepthSectors(benchmark::State& state) {
 }
 
 BENCHMARK(colourInView)->Unit(benchmark::kMillisecond);
-BENCHMARK(colourInViewWithoutOccluder)->Unit(benchmark::kMillisecond);
 BENCHMARK(colourAllRound)->Unit(benchmark::kMillisecond);
+BENCHMARK(colourBatchInView)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK(colourBatchInViewWithoutOccluder)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK(colourBatchAllRound)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK(sampleBatchInView)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK(sampleBatchAllRound)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(openCvInView)->Unit(benchmark::kMillisecond);
 BENCHMARK(openCvAllRound)->Unit(benchmark::kMillisecond);
 BENCHMARK(placeReturns)->Unit(benchmark::kMillisecond);

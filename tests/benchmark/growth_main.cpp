@@ -17,12 +17,14 @@ namespace thermovox::bench {
 namespace {
 
 std::vector<GrowthPoint> growAlong(int scans) {
+  keepScansOutOfTheHeap();
   std::vector<MappedReturn> scan = hallWorkload().scan(0);
   malloc_trim(0);
   const double before = residentBytes();
   const EnginePointer map = thermalMapEngine(0.1, Carving::octomap);
   std::vector<GrowthPoint> curve;
   for (int i = 0; i < scans; ++i) {
+    scan = {};  // never two of them in memory, which is the map's
     scan = hallWorkload().scan(i);
     Stopwatch watch;
     watch.start();

@@ -67,15 +67,15 @@ void writeGrowthPicture(const std::filesystem::path& path, const std::vector<Gro
   double most_memory = 0.0;
   for (const GrowthPoint& point : curve) most_memory = std::max(most_memory, point.memory_mb);
   const Panel time{{70, 50, 370, 250},
-                   "total processor time, s; grey: straight line",
+                   "total processor time, s; white: straight line",
                    1.0 * last.scans,
                    1.1 * last.total_cpu_s};
   const Panel memory{
       {560, 50, 370, 250}, "resident memory of the map, MB", 1.0 * last.scans, 1.1 * most_memory};
   drawAxes(picture, time);
   drawAxes(picture, memory);
-  drawStroke(picture, time.at(0.0, 0.0), time.at(last.scans, line.seconds_a_scan * last.scans), kLine, 1);
   drawCurve(picture, time, curve, &GrowthPoint::total_cpu_s);
+  drawStroke(picture, time.at(0.0, 0.0), time.at(last.scans, line.seconds_a_scan * last.scans), kLine, 1);
   drawCurve(picture, memory, curve, &GrowthPoint::memory_mb);
   writePng(path, picture, Existing::replace);
 }

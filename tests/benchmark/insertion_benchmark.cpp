@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -18,35 +19,39 @@ struct Row {
   std::string workload;
   std::string engine;
   Workload (*make_workload)();
-  EnginePointer (*make_engine)(double resolution);
+  std::function<EnginePointer(double resolution)> make_engine;
   int iterations = 1;
 };
 
-/// Points a second of processor time of the rows measured so far, by workload and engine.
-std::map<std::pair<std::string, std::string>, double>& rates() {
-  static std::map<std::pair<std::string, std::string>, double> rates;
-  return rates;
+/// What the rows measured so far in this run cost, by workload and engine.
+std::map<std::pair<std::string, std::string>, Measurement>& measured() {
+  static std::map<std::pair<std::string, std::string>, Measurement> measured;
+  return measured;
 }
 
-/// The rate over that of a peer measured before in this run, where there is one.
-void compare(benchmark::State& state, const Row& row, const std::string& peer) {
-  const auto found = rates().find({row.workload, peer});
-  if (found != rates().end() && row.engine != peer)
-    state.counters["times_" + peer] = rates().at({row.workload, row.engine}) / found->second;
+/// How many times faster than a peer that was measured before, where there is one: in processor time (of two
+/// threads that of the busier one) and on the clock on the wall.
+void compare(benchmark::State& state, const Row& row, const Measurement& m, const std::string& peer) {
+  const auto found = measured().find({row.workload, peer});
+  if (found == measured().end() || row.engine == peer) return;
+  state.counters["times_" + peer] = found->second.busier_half_s / m.busier_half_s;
+  state.counters["wall_times_" + peer] = found->second.wall_s / m.wall_s;
 }
 
 void report(benchmark::State& state, const Row& row, const Measurement& m) {
-  rates()[{row.workload, row.engine}] = m.points / m.cpu_s;
+  measured()[{row.workload, row.engine}] = m;
   state.counters["points_per_cpu_s"] = m.points / m.cpu_s;
   state.counters["points_per_s"] = m.points / m.wall_s;
-  state.counters["points_per_busier_half_s"] = m.points / m.busier_half_s;
+  state.counters["points_per_busier_thread_s"] = m.points / m.busier_half_s;
   state.counters["known_cells"] = m.cells.known;
   state.counters["surface_cells"] = m.cells.surface;
   state.counters["MB"] = 1e-6 * m.memory_bytes;
   state.counters["peak_MB"] = 1e-6 * m.peak_bytes;
   state.counters["bytes_per_known_cell"] = m.memory_bytes / m.cells.known;
+  state.counters["bytes_per_known_cell_without_64_a_surface"] =
+      (m.memory_bytes - 64.0 * m.cells.surface) / m.cells.known;
   state.counters["bytes_per_surface_cell"] = m.memory_bytes / m.cells.surface;
-  for (const char* peer : {"octomap", "openvdb", "block_floor"}) compare(state, row, peer);
+  for (const char* peer : {"octomap", "openvdb", "block_floor"}) compare(state, row, m, peer);
 }
 
 void insert(benchmark::State& state, const Row& row) {
@@ -64,15 +69,18 @@ void insert(benchmark::State& state, const Row& row) {
   report(state, row, *median);
 }
 
-template <Carving carving>
-EnginePointer thermovoxWith(double resolution) {
-  return thermalMapEngine(resolution, carving);
+/// The thermal map in every way of carving that frees cells.
+std::vector<Row> ourRows(const std::string& workload, Workload (*make_workload)()) {
+  const auto with = [](Carving carving) {
+    return [carving](double resolution) { return thermalMapEngine(resolution, carving); };
+  };
+  return {{workload, "thermovox", make_workload, with(Carving::octomap), 3}};
 }
 
 struct NamedWorkload {
   std::string name;
   Workload (*make)();
-  bool slow = false;  ///< too slow a peer is left out, or measured once
+  bool slow = false;  ///< slow peers are measured once
 };
 
 /// All cells between the laser and its returns are freed.
@@ -87,7 +95,7 @@ std::vector<Row> carvingRows() {
 #ifdef THERMOVOX_OPENVDB
     rows.push_back({name, "openvdb", make, openvdbRays, 3});
 #endif
-    rows.push_back({name, "thermovox", make, thermovoxWith<Carving::octomap>, 3});
+    for (Row& row : ourRows(name, make)) rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -108,7 +116,8 @@ std::vector<Row> surfaceRows() {
     rows.push_back({name, "openvdb", make, openvdbPoints, 3});
 #endif
     rows.push_back({name, "block_floor", make, blockFloor, 3});
-    rows.push_back({name, "thermovox", make, thermovoxWith<Carving::none>, 3});
+    const auto ours = [](double resolution) { return thermalMapEngine(resolution, Carving::none); };
+    rows.push_back({name, "thermovox", make, ours, 3});
   }
   return rows;
 }

@@ -31,6 +31,10 @@ struct Measurement {
 [[nodiscard]] Measurement measureInChild(const std::function<EnginePointer()>& make,
                                          const Workload& workload);
 
+/// Gives every buffer as large as a scan pages of its own, which go when it goes: otherwise they leave holes
+/// in the heap that would count as the map's. The heap itself keeps what it has, as it does by default.
+void keepScansOutOfTheHeap();
+
 /// Resident memory of this process, bytes.
 [[nodiscard]] double residentBytes();
 

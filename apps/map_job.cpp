@@ -1,0 +1,249 @@
+#include "apps/map_job.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "apps/imported_cloud.hpp"
+#include "apps/progress.hpp"
+#include "io/mission_folder.hpp"
+#include "io/rig_file.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Temperatures need a camera in the rig and images in the mission: one without the other may be a slip.
+void warnOfHalfACamera(const OpenedMission& opened) {
+  const bool camera = opened.mission.rig.thermal_camera.has_value();
+  if (camera && !opened.thermal_list) {
+    spdlog::warn("{} has a thermal camera, but {} lists no thermal images: the map gets no temperatures",
+                 opened.rig_file.string(), opened.file.string());
+  } else if (!camera && opened.thermal_list) {
+    spdlog::warn("{} lists thermal images, but {} has no thermal_camera: the map gets no temperatures",
+                 opened.file.string(), opened.rig_file.string());
+  }
+}
+
+MissionOptions missionOptions(const MapJob& job) {
+  return {.max_gap = durationFromSeconds(job.max_gap)};
+}
+
+/// All missions, in the order of their names on the command line.
+std::vector<OpenedMission> openMissions(const MapJob& job) {
+  std::vector<OpenedMission> opened;
+  for (const fs::path& folder : job.missions) opened.push_back(openMission(folder, missionOptions(job)));
+  for (const OpenedMission& mission : opened) warnOfHalfACamera(mission);
+  return opened;
+}
+
+/// The missions' places in the order of their flights: in which they are mapped, so that the result does not
+/// depend on how they were named.
+std::vector<std::size_t> flightOrder(const std::vector<OpenedMission>& missions) {
+  const auto key = [&](std::size_t i) {
+    const Mission& mission = missions[i].mission;
+    return std::pair(mission.trajectory.poses().front().stamp, mission.name);
+  };
+  std::vector<std::size_t> order(missions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
+}
+
+/// Colours were to be expected, and there is not one: most likely the rig or a clock is wrong.
+void checkColours(const MissionReport& report, bool frames_expected) {
+  if (!frames_expected || report.coloured > 0 || report.painted > 0) return;
+  const auto most = std::max_element(report.uncoloured.begin(), report.uncoloured.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  const std::string reason = most == report.uncoloured.end() ? "no_frame" : most->first;
+  const std::string likely = reason == "no_frame" || reason == "no_pose_for_frame"
+                                 ? "check the clocks of camera and laser, and camera_time_offset"
+                                 : "check T_body_camera and T_body_laser of the rig";
+  throw DataError("mission " + report.mission + ": none of its " + std::to_string(report.points) +
+                  " points got a temperature (most: " + reason + "); " + likely);
+}
+
+/// One way through a mission's recordings.
+MissionReport mapOnce(OpenedMission& opened, ThermalMap& map, const MissionMapper::Options& options,
+                      const std::string& pass, const MissionMapper::Sink& points) {
+  const Trajectory& trajectory = opened.mission.trajectory;
+  Progress progress("mapping " + opened.mission.name + pass, trajectory.poses().front().stamp,
+                    trajectory.poses().back().stamp);
+  const MissionListeners listeners{.points = points,
+                                   .progress = [&progress](Time stamp) { progress.at(stamp); }};
+  return mapMission({opened.mission, *opened.readings, opened.frames.get()}, map, options, listeners);
+}
+
+/// Geometry first, then the colours, tested against `known` and the mission's own geometry together. Both
+/// read the mission from its start.
+MissionReport mapTwice(OpenedMission& opened, const MapJob& job, std::vector<const ThermalMap*> known,
+                       ThermalMap& map, const MissionMapper::Sink& points) {
+  OpenedMission again = openMission(opened.folder, missionOptions(job));
+  again.frames.reset();
+  (void)mapOnce(again, map, job.mapper, ", pass 1 of 2", {});
+  known.push_back(&map);
+  SceneSurfaces scene(std::move(known));
+  MissionMapper::Options options = job.mapper;
+  options.pass = job.paint ? MissionMapper::Pass::paint : MissionMapper::Pass::colours;
+  options.scene = &scene;
+  return mapOnce(opened, map, options, ", pass 2 of 2", points);
+}
+
+/// `known` is the geometry besides the mission's own.
+MissionReport mapOne(OpenedMission& opened, const MapJob& job, std::vector<const ThermalMap*> known,
+                     ThermalMap& map, PointsRecord* record) {
+  MissionMapper::Sink points;
+  if (record != nullptr) points = [record](std::span<const ColouredReturn> reading) { record->add(reading); };
+  MissionReport report;
+  if ((job.two_pass || job.paint) && opened.frames) {
+    report = mapTwice(opened, job, std::move(known), map, points);
+  } else {
+    std::optional<SceneSurfaces> scene;
+    MissionMapper::Options options = job.mapper;
+    if (!known.empty()) options.scene = &scene.emplace(std::move(known));
+    report = mapOnce(opened, map, options, "", points);
+  }
+  checkColours(report, opened.frames != nullptr);
+  return report;
+}
+
+/// The station to continue; none when it is to be made. A resolution that contradicts it is refused.
+std::optional<Station> existingStation(const MapJob& job) {
+  if (!fs::exists(job.station)) {
+    checkOutput(job.station, Existing::refuse);
+    return std::nullopt;
+  }
+  Station station = Station::open(job.station);
+  if (job.resolution && *job.resolution != station.options().resolution) {
+    throw ConfigError(job.station.string() + ": has cells of " +
+                      std::to_string(station.options().resolution) + " m, --resolution asks for " +
+                      std::to_string(*job.resolution) + " m, expected the same");
+  }
+  return station;
+}
+
+/// What the map needs to be made again from its missions.
+std::string parametersOf(const MapJob& job) {
+  const nlohmann::ordered_json json{{"carve", job.mapper.carving == Carving::octomap ? "octomap" : "none"},
+                                    {"max_gap", job.max_gap},
+                                    {"two_pass", job.two_pass || job.paint},
+                                    {"paint", job.paint}};
+  return json.dump();
+}
+
+/// Before hours of work: a mission or cloud that the station has already, or that is named twice.
+void checkNew(const std::vector<OpenedMission>& missions, const std::optional<Station>& station,
+              const MapJob& job) {
+  if (job.known == KnownMission::add_again) return;
+  std::set<std::string> names;
+  const auto check = [&](const std::string& name, const fs::path& place) {
+    if (station) station->checkNew(name);
+    if (names.insert(name).second) return;
+    throw DataError(place.string() + ": is a second mission '" + name + "' for the station " +
+                    job.station.string() + ", expected each name once (or --again to integrate both)");
+  };
+  for (const fs::path& file : job.geometry) check(cloudName(file), file);
+  for (const OpenedMission& opened : missions) check(opened.mission.name, opened.folder);
+}
+
+MissionRecord recordOf(const OpenedMission& opened, const MissionReport& report, const MapJob& job) {
+  return {.name = report.mission,
+          .rig = rigText(opened.mission.rig),
+          .parameters = parametersOf(job),
+          .readings = static_cast<std::int64_t>(report.readings),
+          .points = static_cast<std::int64_t>(report.points),
+          .coloured = static_cast<std::int64_t>(report.coloured),
+          .first = report.first_stamp,
+          .last = report.last_stamp};
+}
+
+std::unique_ptr<PointsRecord> openRecord(const MapJob& job) {
+  if (job.points.empty()) return nullptr;
+  return std::make_unique<PointsRecord>(job.points, job.recorded, job.existing_points);
+}
+
+/// The maps of one run, in the order in which they were made, with what the station is to remember of them.
+class Additions {
+ public:
+  Additions(const MapJob& job, const ThermalMap::Options& options) : job_(job), options_(options) {}
+
+  ThermalMap& newMap() { return maps_.emplace_back(options_); }
+  void add(MissionRecord record, const ThermalMap& map) {
+    record.version = THERMOVOX_VERSION;
+    record.mapped_at = job_.mapped_at;
+    additions_.push_back({std::move(record), &map});
+  }
+  [[nodiscard]] std::vector<const ThermalMap*> maps() const {
+    std::vector<const ThermalMap*> maps;
+    for (const Station::Addition& addition : additions_) maps.push_back(addition.map);
+    return maps;
+  }
+  [[nodiscard]] std::span<const Station::Addition> all() const { return additions_; }
+
+ private:
+  const MapJob& job_;
+  ThermalMap::Options options_;
+  std::deque<ThermalMap> maps_;  // whose places stay where they are
+  std::vector<Station::Addition> additions_;
+};
+
+/// Maps the missions in the order of their flights. What hides things from a mission besides its own geometry
+/// are the imported clouds; with --paint also the station as it was and the missions before it.
+std::vector<MissionReport> mapMissions(std::vector<OpenedMission>& missions, const MapJob& job,
+                                       const ThermalMap* before, Additions& additions, PointsRecord* record) {
+  for (const fs::path& file : job.geometry) {
+    ThermalMap& map = additions.newMap();
+    additions.add(importCloud(file, map), map);
+  }
+  const std::vector<const ThermalMap*> clouds = additions.maps();
+  std::vector<MissionReport> reports(missions.size());
+  for (const std::size_t place : flightOrder(missions)) {
+    std::vector<const ThermalMap*> known = job.paint ? additions.maps() : clouds;
+    if (before != nullptr) known.push_back(before);
+    ThermalMap& map = additions.newMap();
+    reports[place] = mapOne(missions[place], job, std::move(known), map, record);
+    additions.add(recordOf(missions[place], reports[place], job), map);
+  }
+  return reports;
+}
+
+}  // namespace
+
+ThermalMap::Options newStationOptions(const MapJob& job) {
+  ThermalMap::Options options;
+  if (job.resolution) options.resolution = *job.resolution;
+  return options;
+}
+
+MapResult run(MapJob& job) {
+  std::vector<OpenedMission> missions = openMissions(job);
+  if (job.station.empty()) {
+    job.station =
+        (missions.empty() ? cloudName(job.geometry.front()) : missions.front().mission.name) + ".tvx";
+  }
+  std::optional<Station> station = existingStation(job);
+  checkNew(missions, station, job);
+  const std::unique_ptr<PointsRecord> points = openRecord(job);
+  const ThermalMap::Options options = station ? station->options() : newStationOptions(job);
+  std::optional<ThermalMap> before;
+  if (job.paint && station) before.emplace(station->loadMap());
+  Additions additions(job, options);
+  MapResult result;
+  result.missions = mapMissions(missions, job, before ? &*before : nullptr, additions, points.get());
+  if (points) points->finish();
+  if (!station) station.emplace(Station::create(job.station, options));
+  station->addMissions(additions.all(), job.known);
+  if (points) points->commit();
+  result.voxels = static_cast<std::size_t>(station->counts().surfaces);
+  return result;
+}
+
+}  // namespace thermovox

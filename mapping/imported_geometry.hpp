@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "mapping/thermal_map.hpp"
+
+namespace thermovox {
+
+/// Adds a cloud from elsewhere (metres, world) to a map: surfaces without temperatures. A cell is hit once,
+/// however many of the points lie in it, and nothing is freed: a cloud does not say whence it was seen.
+/// Points that are not finite are passed over. Throws DataError when none is left, or one lies further out
+/// than a map reaches.
+void addGeometry(std::span<const Eigen::Vector3d> points_world, ThermalMap& map);
+
+}  // namespace thermovox

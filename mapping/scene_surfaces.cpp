@@ -1,0 +1,194 @@
+#include "mapping/scene_surfaces.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+constexpr int kTileCells = kTileEdge * kBlockEdge;  // an edge
+constexpr std::uint64_t kViewsKept = 16;            // views after which an unused tile is forgotten
+constexpr int kReach = 2;                           // cells around one that tell its normal
+constexpr std::size_t kFewest = 6;                  // points that make a plane
+constexpr double kPlanar = 0.35;                    // thickness of a plane against its shorter width
+constexpr double kConeMargin = 0.1;                 // radians; what lies beside the image hides things in it
+
+/// Half the angle of the cone about the optical axis that holds the image, radians.
+double halfAngle(const Camera& camera) {
+  const double right = camera.width() - 0.5;
+  const double bottom = camera.height() - 0.5;
+  double widest = 0.0;
+  for (const double u : {-0.5, 0.5 * right, right}) {
+    for (const double v : {-0.5, 0.5 * bottom, bottom}) {
+      const auto ray = camera.rayFromPixel({u, v});
+      const double tangent = ray ? ray->head<2>().norm() : camera.validRadius();
+      widest = std::max(widest, std::atan(tangent));
+    }
+  }
+  return widest + kConeMargin;
+}
+
+/// The surfaces in and around a tile by their cells, to find neighbours at once.
+class Neighbourhood {
+ public:
+  explicit Neighbourhood(const TileKey& tile)
+      : origin_{tile.x * kTileCells - kReach, tile.y * kTileCells - kReach, tile.z * kTileCells - kReach},
+        places_(static_cast<std::size_t>(kEdge) * kEdge * kEdge, kNone) {}
+
+  void add(const SceneSurface& surface) {
+    const int index = indexOf(surface.key, 0, 0, 0);
+    if (index < 0) return;
+    places_[static_cast<std::size_t>(index)] = static_cast<std::int32_t>(points_.size());
+    points_.push_back(surface.p_world);
+  }
+
+  /// Normal of the plane through the surfaces within `reach` cells; zero where they are too few or no plane.
+  [[nodiscard]] Eigen::Vector3f normalAt(const SceneSurface& surface) const {
+    for (int reach = 1; reach <= kReach; ++reach) {
+      Eigen::Vector3d first = Eigen::Vector3d::Zero();
+      Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+      std::size_t count = 0;
+      forEachAround(surface.key, reach, [&](const Eigen::Vector3d& p_world) {
+        const Eigen::Vector3d d = p_world - surface.p_world;
+        first += d;
+        second += d * d.transpose();
+        ++count;
+      });
+      if (count >= kFewest) return planeNormal(first, second, static_cast<double>(count));
+    }
+    return Eigen::Vector3f::Zero();
+  }
+
+ private:
+  static constexpr int kEdge = kTileCells + 2 * kReach;
+  static constexpr std::int32_t kNone = -1;
+
+  [[nodiscard]] int indexOf(const CellKey& key, int dx, int dy, int dz) const {
+    const int x = key.x + dx - origin_.x;
+    const int y = key.y + dy - origin_.y;
+    const int z = key.z + dz - origin_.z;
+    if (x < 0 || y < 0 || z < 0 || x >= kEdge || y >= kEdge || z >= kEdge) return kNone;
+    return (z * kEdge + y) * kEdge + x;
+  }
+
+  template <typename Visitor>
+  void forEachAround(const CellKey& key, int reach, Visitor&& visit) const {
+    for (int dz = -reach; dz <= reach; ++dz) {
+      for (int dy = -reach; dy <= reach; ++dy) {
+        for (int dx = -reach; dx <= reach; ++dx) {
+          const int index = indexOf(key, dx, dy, dz);
+          const std::int32_t place = index < 0 ? kNone : places_[static_cast<std::size_t>(index)];
+          if (place != kNone) visit(points_[static_cast<std::size_t>(place)]);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] static Eigen::Vector3f planeNormal(const Eigen::Vector3d& first,
+                                                   const Eigen::Matrix3d& second, double count) {
+    const Eigen::Vector3d mean = first / count;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(second / count - mean * mean.transpose());
+    const Eigen::Vector3d& variances = solver.eigenvalues();
+    if (!(variances[0] < kPlanar * kPlanar * variances[1])) return Eigen::Vector3f::Zero();
+    return solver.eigenvectors().col(0).cast<float>();
+  }
+
+  CellKey origin_;
+  std::vector<std::int32_t> places_;  ///< in points_, of every cell
+  std::vector<Eigen::Vector3d> points_;
+};
+
+}  // namespace
+
+SceneSurfaces::SceneSurfaces(std::vector<const ThermalMap*> maps) : maps_(std::move(maps)) {
+  if (maps_.empty()) throw ConfigError("a scene: expected at least one map");
+  for (const ThermalMap* map : maps_) {
+    if (map->options() != maps_.front()->options()) {
+      throw ConfigError("the maps of a scene: expected one resolution and one occupancy model");
+    }
+    map->forEachBlock([this](const BlockKey& key, const Block&) { keys_.push_back(tileOf(key)); });
+    std::sort(keys_.begin(), keys_.end());
+    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  }
+}
+
+std::vector<TileKey> SceneSurfaces::tilesInView(const Camera& camera, const Pose& T_camera_world,
+                                                double range) const {
+  const double edge = resolution() * kTileCells;
+  const double radius = 0.5 * std::sqrt(3.0) * edge;
+  const double half_angle = halfAngle(camera);
+  std::vector<TileKey> seen;
+  for (const TileKey& key : keys_) {
+    const Eigen::Vector3d center = (Eigen::Vector3d(key.x, key.y, key.z).array() + 0.5) * edge;
+    const Eigen::Vector3d center_camera = T_camera_world * center;
+    const double distance = center_camera.norm();
+    if (distance > range + radius) continue;
+    if (distance > radius) {
+      const double off_axis = std::atan2(center_camera.head<2>().norm(), center_camera.z());
+      if (off_axis > half_angle + std::asin(radius / distance)) continue;
+    }
+    seen.push_back(key);
+  }
+  return seen;
+}
+
+std::span<const SceneSurface> SceneSurfaces::surfacesOf(const TileKey& key) {
+  const auto [place, is_new] = tiles_.try_emplace(key);
+  if (is_new) place->second.surfaces = gather(key);
+  place->second.view = view_;
+  return place->second.surfaces;
+}
+
+void SceneSurfaces::forgetUnused() {
+  std::erase_if(tiles_, [this](const auto& tile) { return tile.second.view + kViewsKept < view_; });
+  ++view_;
+}
+
+std::vector<SceneSurface> SceneSurfaces::gather(const TileKey& key) const {
+  std::vector<SceneSurface> surfaces;
+  Neighbourhood neighbourhood(key);
+  std::vector<SceneSurface> around;
+  const BlockKey first{key.x * kTileEdge, key.y * kTileEdge, key.z * kTileEdge};
+  for (int dz = -1; dz <= kTileEdge; ++dz) {
+    for (int dy = -1; dy <= kTileEdge; ++dy) {
+      for (int dx = -1; dx <= kTileEdge; ++dx) {
+        const BlockKey block{first.x + dx, first.y + dy, first.z + dz};
+        appendBlock(block, tileOf(block) == key ? surfaces : around);
+      }
+    }
+  }
+  for (const SceneSurface& surface : surfaces) neighbourhood.add(surface);
+  for (const SceneSurface& surface : around) neighbourhood.add(surface);
+  for (SceneSurface& surface : surfaces) surface.normal = neighbourhood.normalAt(surface);
+  return surfaces;
+}
+
+void SceneSurfaces::appendBlock(const BlockKey& key, std::vector<SceneSurface>& surfaces) const {
+  std::vector<std::pair<const ThermalMap*, const Block*>> layers;
+  for (const ThermalMap* map : maps_) {
+    if (const Block* block = map->block(key)) layers.emplace_back(map, block);
+  }
+  if (layers.empty()) return;
+  const OccupancyModel& model = maps_.front()->occupancyModel();
+  for (int index = 0; index < kBlockCells; ++index) {
+    SurfaceCell together;
+    for (const auto& [map, block] : layers) {
+      if (const SurfaceCell* surface = block->surface(index)) together.merge(*surface);
+    }
+    if (together.returns == 0) continue;
+    const CellKey cell = cellAt(key, index);
+    double log_odds = 0.0;
+    for (const auto& [map, block] : layers) log_odds += map->logOdds(cell).value_or(0.0);
+    if (!model.isOccupied(static_cast<LogOdds>(std::lround(log_odds / model.quantum())))) continue;
+    const Eigen::Vector3d place = Eigen::Vector3d(cell.x, cell.y, cell.z) + together.meanOffset();
+    surfaces.push_back({place * resolution(), Eigen::Vector3f::Zero(), cell});
+  }
+}
+
+}  // namespace thermovox

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""The results of thermovox_benchmarks as tables in Markdown.
+
+    tests/benchmark/tables.py RESULTS.json
+
+Standard library only. Ratios are those that the run itself worked out, of rows measured next to each other.
+"""
+import json
+import sys
+
+WORKLOADS = {
+    "carving/hall_0.1_m": "hall, 0.1 m, 8 scans",
+    "carving/hall_0.05_m": "hall, 0.05 m, 4 scans",
+    "carving/recorded_scan_0.1_m": "a real scan, 0.1 m",
+    "surfaces/cold_hall_0.1_m": "hall, 0.1 m, 8 scans",
+    "surfaces/warm_hall_0.1_m": "hall, 0.1 m, 200 scans",
+    "surfaces/cold_hall_0.05_m": "hall, 0.05 m, 8 scans",
+    "surfaces/warm_hall_0.05_m": "hall, 0.05 m, 200 scans",
+}
+ENGINES = {
+    "carving": {
+        "octomap": "OctoMap `insertPointCloud`",
+        "openvdb": "OpenVDB, mask and one update a cell",
+    },
+    "surfaces": {
+        "octomap": "OctoMap `updateNode`, lazy",
+        "color_octomap": "ColorOcTree, lazy, `averageNodeColor`",
+        "openvdb": "OpenVDB `FloatGrid` accessor",
+        "block_floor": "floor: blocks that only add up",
+    },
+}
+
+
+def rows_of(results, kind):
+    """(workload, engine, counters) of every row of one kind."""
+    for row in results["benchmarks"]:
+        group, workload, engine = row["name"].split("/")[:3]
+        if group == kind and not row.get("error_occurred"):
+            yield f"{group}/{workload}", engine, row
+
+
+def name_of(kind, engine):
+    return ENGINES[kind].get(engine) or f"**{engine.replace('_', ' ')}**"
+
+
+def three_digits(value):
+    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
+
+
+def ratio(row, peer):
+    """How many times faster than the peer: in processor time and, in brackets, on the wall."""
+    if f"times_{peer}" not in row:
+        return ""
+    return f"{three_digits(row[f'times_{peer}'])} ({three_digits(row[f'wall_times_{peer}'])})"
+
+
+def print_table(head, rows):
+    print("| " + " | ".join(head) + " |")
+    print("| --- | --- " + "| ---: " * (len(head) - 2) + "|")
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+    print()
+
+
+def carving(results):
+    print("All space between the laser and its returns freed:\n")
+    head = ["workload", "engine", "thousand points a CPU-second", "x OctoMap (wall)", "x OpenVDB (wall)",
+            "MB", "known cells, million", "bytes a known cell", "of these beyond 64 a surface cell"]
+    print_table(head, ([
+        WORKLOADS[workload], name_of("carving", engine), three_digits(row["points_per_cpu_s"] / 1e3),
+        ratio(row, "octomap"), ratio(row, "openvdb"), f"{row['MB']:.0f}", f"{row['known_cells'] / 1e6:.2f}",
+        f"{row['bytes_per_known_cell']:.1f}",
+        f"{row['bytes_per_known_cell_without_64_a_surface']:.1f}" if "thermovox" in engine else "",
+    ] for workload, engine, row in rows_of(results, "carving")))
+
+
+def surfaces(results):
+    print("Surfaces only (`--carve none`):\n")
+    head = ["workload", "engine", "million points a CPU-second", "x OctoMap (wall)", "x floor (wall)", "MB",
+            "surface cells, million", "bytes a surface cell"]
+    print_table(head, ([
+        WORKLOADS[workload], name_of("surfaces", engine), three_digits(row["points_per_cpu_s"] / 1e6),
+        ratio(row, "octomap"), ratio(row, "block_floor"), f"{row['MB']:.0f}",
+        f"{row['surface_cells'] / 1e6:.2f}", f"{row['bytes_per_surface_cell']:.0f}",
+    ] for workload, engine, row in rows_of(results, "surfaces")))
+
+
+def main(arguments):
+    if len(arguments) != 1:
+        raise SystemExit(__doc__)
+    with open(arguments[0], encoding="utf-8") as file:
+        results = json.load(file)
+    carving(results)
+    surfaces(results)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
