@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include <array>
+#include <thread>
 #include <utility>
 
 #include "projection/error.hpp"
@@ -9,7 +11,9 @@
 namespace thermovox {
 namespace {
 
+/// Readers wait for programs other than this one, which write in place.
 constexpr int kBusyMilliseconds = 2000;
+constexpr std::chrono::milliseconds kPause{20};
 
 /// The sentence for what SQLite found.
 [[noreturn]] void fail(const std::string& file_name, sqlite3* database, int code) {
@@ -23,13 +27,50 @@ constexpr int kBusyMilliseconds = 2000;
       throw DataError(file_name + ": cannot be written, the disk is full");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      throw DataError(file_name + ": another process is writing it, try again when that has finished");
+      throw DataError(file_name + ": another process is writing it, expected it to finish: try again then");
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
       throw DataError(file_name + ": cannot be opened or written here (" + detail + ")");
     default:
       throw DataError(file_name + ": " + detail);
   }
+}
+
+bool isBeside(const std::filesystem::path& path, const char* ending) {
+  std::error_code ignored;
+  return std::filesystem::exists(path.string() + ending, ignored);
+}
+
+/// Whether the open file's header says that it is written with a write-ahead log (bytes 18 and 19 are 2).
+/// Read through SQLite: to open the file once more and close it would drop SQLite's locks on it.
+bool isInWalMode(sqlite3* database) {
+  sqlite3_file* file = nullptr;
+  std::array<char, 2> versions{};
+  if (sqlite3_file_control(database, "main", SQLITE_FCNTL_FILE_POINTER, &file) != SQLITE_OK) return false;
+  if (file == nullptr || file->pMethods == nullptr) return false;
+  return file->pMethods->xRead(file, versions.data(), versions.size(), 18) == SQLITE_OK &&
+         (versions[0] == 2 || versions[1] == 2);
+}
+
+int openFlags(const std::filesystem::path& path, SqlDatabase::Mode mode) {
+  if (mode != SqlDatabase::Mode::read) return SQLITE_OPEN_READWRITE;
+  // What a killed program that writes in place left beside the file has to be put back first.
+  return isBeside(path, "-journal") || isBeside(path, "-wal") ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY;
+}
+
+/// The file as a URI, which keeps names such as ":memory:" from having a meaning of their own.
+std::string uriOf(const std::filesystem::path& path) {
+  std::string uri = path.is_absolute() ? "file://" : "file:./";
+  for (const char c : path.string()) {
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '%' || c == '?' || c == '#') {
+      uri += {'%', digits[byte >> 4], digits[byte & 15]};
+    } else {
+      uri += c;
+    }
+  }
+  return uri;
 }
 
 }  // namespace
@@ -87,6 +128,10 @@ void SqlStatement::expectType(int column, int type, const char* name) const {
                   " holds something else, expected " + name);
 }
 
+bool SqlStatement::isNull(int column) const {
+  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
+}
+
 std::int64_t SqlStatement::integer(int column) const {
   expectType(column, SQLITE_INTEGER, "a whole number");
   return sqlite3_column_int64(statement_.get(), column);
@@ -110,17 +155,49 @@ void SqlDatabase::Closer::operator()(sqlite3* database) const {
 
 SqlDatabase::SqlDatabase(const std::filesystem::path& path, Mode mode, std::string shown_name)
     : file_name_(std::move(shown_name)) {
-  const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
-  // "./" keeps names that begin with "file:" or ":memory:" from having a meaning of their own.
-  const std::string name = path.is_absolute() ? path.string() : "./" + path.string();
+  open(uriOf(path), openFlags(path, mode));
+  // A file that another program left in write-ahead mode, with nothing beside it, can only be read without
+  // leaving something there when it is taken for immutable.
+  if (mode == Mode::read && !isBeside(path, "-wal") && isInWalMode(database_.get()))
+    open(uriOf(path) + "?immutable=1", SQLITE_OPEN_READONLY);
+  sqlite3_busy_timeout(database_.get(), kBusyMilliseconds);
+  sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  if (mode == Mode::build) {
+    execute("PRAGMA journal_mode = MEMORY");
+    execute("PRAGMA synchronous = OFF");
+    execute("PRAGMA locking_mode = EXCLUSIVE");
+  }
+}
+
+void SqlDatabase::open(const std::string& uri, int flags) {
   sqlite3* database = nullptr;
-  const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
+  const int code = sqlite3_open_v2(uri.c_str(), &database, flags | SQLITE_OPEN_URI, nullptr);
   database_.reset(database);
   if (code != SQLITE_OK) fail(file_name_, database, code);
   sqlite3_extended_result_codes(database, 0);
-  sqlite3_busy_timeout(database, kBusyMilliseconds);
-  sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-  sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+}
+
+int SqlDatabase::tryLock() {
+  // What another program writes with a log beside the file cannot be replaced while it has that open.
+  const int code = sqlite3_exec(database_.get(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) return code;
+  if (isInWalMode(database_.get())) return SQLITE_BUSY;
+  return sqlite3_exec(database_.get(), "BEGIN IMMEDIATE", nullptr, nullptr, nullptr);
+}
+
+void SqlDatabase::lock(const Patience& patience) {
+  sqlite3_busy_timeout(database_.get(), 0);
+  const auto begin = std::chrono::steady_clock::now();
+  for (bool waits = false;; waits = true) {
+    const int code = tryLock();
+    if (code == SQLITE_OK) break;
+    if (code != SQLITE_BUSY || std::chrono::steady_clock::now() - begin >= patience.most)
+      fail(file_name_, database_.get(), code);
+    if (!waits && patience.begins) patience.begins();
+    std::this_thread::sleep_for(kPause);
+  }
+  sqlite3_busy_timeout(database_.get(), kBusyMilliseconds);
 }
 
 void SqlDatabase::execute(const std::string& sql) {
@@ -136,31 +213,6 @@ std::int64_t SqlDatabase::integer(std::string_view sql) const {
   SqlStatement query = prepare(sql);
   if (!query.step()) throw DataError(file_name_ + ": is damaged, a number is missing");
   return query.integer(0);
-}
-
-SqlTransaction::SqlTransaction(SqlDatabase& database) : database_(database) {
-  database_.execute("BEGIN IMMEDIATE");
-}
-
-SqlTransaction::~SqlTransaction() {
-  if (!open_) return;
-  try {
-    database_.execute("ROLLBACK");
-  } catch (const DataError&) {
-    // SQLite has rolled back on its own already.
-  }
-  try {
-    // After a failed write (a full disk) the pages in the file are put back at the next reading only; until
-    // then the journal beside it is a part of the database.
-    (void)database_.integer("SELECT count(*) FROM sqlite_master");
-  } catch (const DataError&) {
-    // Not now, then; whoever opens the file next does it.
-  }
-}
-
-void SqlTransaction::commit() {
-  database_.execute("COMMIT");
-  open_ = false;
 }
 
 }  // namespace thermovox

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,6 +29,7 @@ class SqlStatement {
   void run();
   void reset();
 
+  [[nodiscard]] bool isNull(int column) const;
   /// Columns count from 0. A column of another type than asked for is a DataError.
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] std::string text(int column) const;
@@ -49,11 +52,21 @@ class SqlStatement {
 class SqlDatabase {
  public:
   enum class Mode {
-    create,      ///< a new file, for writing
-    read_write,  ///< an existing file; one that cannot be written is opened for reading
+    build,  ///< an empty file that nobody else sees and that is thrown away when it does not get finished
+    read,   ///< an existing file; needs no right to write, and leaves nothing behind
+    lock,   ///< an existing file, to keep others from writing it with lock()
   };
   /// `shown_name` stands for the file in messages.
   SqlDatabase(const std::filesystem::path& path, Mode mode, std::string shown_name);
+
+  /// How long to wait for others, and what to call once when that begins.
+  struct Patience {
+    std::chrono::milliseconds most = std::chrono::seconds(30);
+    std::function<void()> begins;
+  };
+  /// Keeps every other process from writing the file until this object goes. Throws DataError when another
+  /// has not finished after that time.
+  void lock(const Patience& patience);
 
   void execute(const std::string& sql);
   [[nodiscard]] SqlStatement prepare(std::string_view sql) const;
@@ -61,25 +74,14 @@ class SqlDatabase {
   [[nodiscard]] std::int64_t integer(std::string_view sql) const;
 
  private:
+  void open(const std::string& uri, int flags);
+  [[nodiscard]] int tryLock();
+
   struct Closer {
     void operator()(sqlite3* database) const;
   };
   std::string file_name_;
   std::unique_ptr<sqlite3, Closer> database_;
-};
-
-/// All or nothing: what happens until commit() is undone when the object goes without it.
-class SqlTransaction {
- public:
-  explicit SqlTransaction(SqlDatabase& database);
-  ~SqlTransaction();
-  SqlTransaction(const SqlTransaction&) = delete;
-  SqlTransaction& operator=(const SqlTransaction&) = delete;
-  void commit();
-
- private:
-  SqlDatabase& database_;
-  bool open_ = true;
 };
 
 }  // namespace thermovox

@@ -1,92 +1,21 @@
 #include "io/station.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <csignal>
-#include <map>
 #include <utility>
 
 #include "io/atomic_file.hpp"
-#include "io/number_text.hpp"
-#include "io/sqlite.hpp"
 #include "io/station_schema.hpp"
-#include "io/tile_codec.hpp"
+#include "io/station_tiles.hpp"
+#include "io/station_writer.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::string_view kUnfinished = ".unfinished";
-constexpr std::string_view kJournal = "-journal";
-constexpr const char* kMissionColumns =
-    "name, rig, parameters, readings, points, coloured, first_ns, last_ns, version, mapped_at";
-
-/// The key in the row's first three columns. A map reaches no further than kMaxCellKey.
-TileKey tileKeyOf(const SqlStatement& row, const fs::path& path) {
-  const auto index = [&](int column) {
-    constexpr std::int64_t reach = kMaxCellKey >> (kBlockBits + kTileBits);
-    const std::int64_t place = row.integer(column);
-    if (place >= -reach && place <= reach) return static_cast<std::int32_t>(place);
-    throw DataError(path.string() + ": is damaged, it has a tile at " + std::to_string(place) +
-                    ", expected one within " + std::to_string(reach) + " of the origin");
-  };
-  return {index(0), index(1), index(2)};
-}
-
-/// The tile's blocks; the error names the station too.
-TileBlocks decode(const TileKey& key, std::string_view bytes, const fs::path& path) {
-  try {
-    return decodeTile(key, bytes);
-  } catch (const DataError& error) {
-    throw DataError(path.string() + ": " + error.what());
-  }
-}
-
-std::int64_t surfacesIn(const TileBlocks& blocks) {
-  std::int64_t count = 0;
-  for (const auto& [key, block] : blocks) count += static_cast<std::int64_t>(block.surfaceCount());
-  return count;
-}
-
-/// A mission's blocks by the tiles they lie in.
-std::map<TileKey, std::vector<BlockKey>> tilesOf(const ThermalMap& map) {
-  std::map<TileKey, std::vector<BlockKey>> tiles;
-  for (const BlockKey& key : map.sortedBlockKeys()) tiles[tileOf(key)].push_back(key);
-  return tiles;
-}
-
-void bindTime(SqlStatement& statement, int parameter, const std::optional<Time>& time) {
-  if (time) statement.bind(parameter, time->time_since_epoch().count());
-}
-
-void insertMission(SqlDatabase& database, const MissionRecord& record) {
-  SqlStatement insert = database.prepare(std::string("INSERT INTO missions (") + kMissionColumns +
-                                         ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bindText(1, record.name).bindText(2, record.rig).bindText(3, record.parameters);
-  insert.bind(4, record.readings).bind(5, record.points).bind(6, record.coloured);
-  bindTime(insert, 7, record.first);
-  bindTime(insert, 8, record.last);
-  insert.bindText(9, record.version).bind(10, record.mapped_at).run();
-}
-
-/// Merges the mission's blocks of every tile it touches into the stored ones.
-void mergeTiles(SqlDatabase& database, const ThermalMap& mission_map, const fs::path& path) {
-  SqlStatement select = database.prepare("SELECT data FROM tiles WHERE x = ? AND y = ? AND z = ?");
-  SqlStatement replace = database.prepare("INSERT OR REPLACE INTO tiles VALUES (?, ?, ?, ?, ?, ?)");
-  for (const auto& [tile, keys] : tilesOf(mission_map)) {
-    select.bind(1, tile.x).bind(2, tile.y).bind(3, tile.z);
-    TileBlocks blocks = select.step() ? decode(tile, select.blob(0), path) : TileBlocks{};
-    select.reset();
-    for (const BlockKey& key : keys) blocks[key].merge(*mission_map.block(key));
-    replace.bind(1, tile.x).bind(2, tile.y).bind(3, tile.z);
-    replace.bind(4, static_cast<std::int64_t>(blocks.size())).bind(5, surfacesIn(blocks));
-    replace.bindBlob(6, encodeTile(tile, blocks)).run();
-  }
-}
 
 /// Refuses what SQLite would take for an empty database or not name well.
 void checkIsFile(const fs::path& path) {
@@ -101,139 +30,105 @@ void checkIsFile(const fs::path& path) {
     throw DataError(path.string() + ": is empty, expected a station file");
 }
 
-fs::path folderOf(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
+/// Which file lies under a name just now.
+struct FileId {
+  dev_t device = 0;
+  ino_t inode = 0;
+  static FileId of(const fs::path& path) {
+    struct stat found {};
+    return ::stat(path.c_str(), &found) == 0 ? FileId{found.st_dev, found.st_ino} : FileId{};
+  }
+  friend bool operator==(const FileId&, const FileId&) = default;
+};
 
-/// Whether the name is NAME.tvx.<process>.unfinished or its journal, of a process that lives no more.
-bool isLeftover(std::string_view name, const std::string& station) {
-  if (name.ends_with(kJournal)) name.remove_suffix(kJournal.size());
-  if (!name.starts_with(station + ".") || !name.ends_with(kUnfinished)) return false;
-  name.remove_prefix(station.size() + 1);
-  name.remove_suffix(kUnfinished.size());
-  const std::optional<int> process = parseInteger(name);
-  return process && *process > 0 && ::kill(*process, 0) != 0 && errno == ESRCH;
-}
-
-/// Removes what killed processes left of this station's making.
-void removeLeftovers(const fs::path& station) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folderOf(station), ignored)) {
-    if (isLeftover(entry.path().filename().string(), station.filename().string()))
-      fs::remove(entry.path(), ignored);
+/// Keeps other processes from writing the station. Whoever waited may find that the file it waited for has
+/// been replaced, and waits for the new one.
+std::unique_ptr<SqlDatabase> lockStation(const fs::path& path, const SqlDatabase::Patience& patience) {
+  for (;;) {
+    checkIsFile(path);
+    const FileId file = FileId::of(path);
+    auto lock = std::make_unique<SqlDatabase>(path, SqlDatabase::Mode::lock, path.string());
+    lock->lock(patience);
+    if (FileId::of(path) == file) return lock;
   }
 }
 
-void syncFolderOf(const fs::path& path) {
-  const fs::path folder = folderOf(path);
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // a folder that cannot be opened for reading can still be written to
-  ::fsync(descriptor);
-  ::close(descriptor);
+void checkNewAmong(const std::vector<MissionRecord>& missions, const std::string& name,
+                   const fs::path& path) {
+  for (const MissionRecord& known : missions) {
+    if (known.name != name) continue;
+    throw DataError(path.string() + ": has the mission '" + name +
+                    "' already, expected one of another name (or --again to integrate it once more)");
+  }
+}
+
+void checkAddition(const Station::Addition& addition, const StationContent& content, KnownMission known,
+                   const fs::path& path) {
+  const auto& [record, map] = addition;
+  if (map->options() != content.options) {
+    throw ConfigError(path.string() + ": has cells of " + std::to_string(content.options.resolution) +
+                      " m, expected a mission mapped with the same resolution and occupancy model (it has " +
+                      std::to_string(map->resolution()) + " m)");
+  }
+  if (known == KnownMission::refuse) checkNewAmong(content.missions, record.name, path);
 }
 
 }  // namespace
 
-/// The open database, and where it lies as long as the station has no mission.
-struct Station::Storage {
-  fs::path unfinished;  ///< empty once the station stands under its own name
-  std::optional<SqlDatabase> database;
-
-  Storage(const fs::path& file, SqlDatabase::Mode mode, const fs::path& shown) {
-    database.emplace(file, mode, shown.string());
-  }
-  Storage(const Storage&) = delete;
-  Storage& operator=(const Storage&) = delete;
-  ~Storage() {
-    database.reset();
-    if (unfinished.empty()) return;
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    fs::remove(unfinished.string() + kJournal.data(), ignored);
-  }
-};
-
-Station::Station(fs::path path, ThermalMap::Options options, std::unique_ptr<Storage> storage)
-    : path_(std::move(path)), options_(options), storage_(std::move(storage)) {}
+Station::Station(fs::path path, const ThermalMap::Options& options, StationAccess access)
+    : path_(std::move(path)), options_(options), access_(std::move(access)) {}
 Station::Station(Station&&) noexcept = default;
 Station& Station::operator=(Station&&) noexcept = default;
 Station::~Station() = default;
 
-Station Station::open(const fs::path& path) {
-  checkIsFile(path);
-  auto storage = std::make_unique<Storage>(path, SqlDatabase::Mode::read_write, path);
-  checkStationTables(*storage->database, path);
-  const ThermalMap::Options options = readStationOptions(*storage->database, path);
-  return {path, options, std::move(storage)};
+Station Station::open(const fs::path& path, StationAccess access) {
+  Station station(path, {}, std::move(access));
+  station.read();
+  return station;
 }
 
-Station Station::create(const fs::path& path, const ThermalMap::Options& options) {
+void Station::read() {
+  checkIsFile(path_);
+  database_ = std::make_unique<SqlDatabase>(path_, SqlDatabase::Mode::read, path_.string());
+  checkStationTables(*database_, path_);
+  options_ = readStationOptions(*database_, path_);
+}
+
+Station Station::create(const fs::path& path, const ThermalMap::Options& options, StationAccess access) {
   options.validate();
   checkOutput(path, Existing::refuse);
-  removeLeftovers(path);
-  const fs::path unfinished = path.string() + "." + std::to_string(::getpid()) + kUnfinished.data();
-  std::error_code ignored;
-  fs::remove(unfinished, ignored);
-  auto storage = std::make_unique<Storage>(unfinished, SqlDatabase::Mode::create, path);
-  storage->unfinished = unfinished;
-  createStationTables(*storage->database, options);
-  return {path, options, std::move(storage)};
+  checkWritable(path);
+  return {path, options, std::move(access)};
 }
 
-/// The first mission is in: the file gets its name.
-void Station::finishCreation() {
-  checkOutput(path_, Existing::refuse);
-  storage_->database.reset();
-  std::error_code error;
-  fs::rename(storage_->unfinished, path_, error);
-  if (error) throw DataError(path_.string() + ": cannot be renamed into place (" + error.message() + ")");
-  storage_->unfinished.clear();
-  syncFolderOf(path_);
-  storage_->database.emplace(path_, SqlDatabase::Mode::read_write, path_.string());
+void Station::checkWritable(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
+    throw DataError(path.string() + ": is write-protected, expected a station that can be continued");
+  const StationWriter writer(path);
 }
 
 Station::Counts Station::counts() const {
-  return countStation(*storage_->database);
+  return database_ ? countStation(*database_) : Counts{};
 }
 
 std::vector<MissionRecord> Station::missions() const {
-  std::vector<MissionRecord> missions;
-  SqlStatement query =
-      storage_->database->prepare(std::string("SELECT ") + kMissionColumns +
-                                  ", first_ns IS NULL, last_ns IS NULL FROM missions ORDER BY id");
-  while (query.step()) {
-    MissionRecord record;
-    record.name = query.text(0);
-    record.rig = query.text(1);
-    record.parameters = query.text(2);
-    record.readings = query.integer(3);
-    record.points = query.integer(4);
-    record.coloured = query.integer(5);
-    if (query.integer(10) == 0) record.first = Time(Duration(query.integer(6)));
-    if (query.integer(11) == 0) record.last = Time(Duration(query.integer(7)));
-    record.version = query.text(8);
-    record.mapped_at = query.integer(9);
-    missions.push_back(std::move(record));
-  }
-  return missions;
+  return database_ ? readMissions(*database_, path_) : std::vector<MissionRecord>{};
 }
 
 ThermalMap Station::loadMap() const {
   ThermalMap map(options_);
-  SqlStatement query = storage_->database->prepare("SELECT x, y, z, data FROM tiles ORDER BY x, y, z");
-  while (query.step()) {
-    for (auto& [key, block] : decode(tileKeyOf(query, path_), query.blob(3), path_))
-      map.setBlock(key, std::move(block));
-  }
+  if (!database_) return map;
+  StationTiles tiles(*database_, path_);
+  forEachDecodedTile(tiles, path_, access_.threads, [&](TileBlocks& blocks, const std::string& fault) {
+    if (!fault.empty()) throw DataError(fault);
+    for (auto& [key, block] : blocks) map.setBlock(key, std::move(block));
+  });
   return map;
 }
 
 void Station::checkNew(const std::string& mission) const {
-  SqlStatement query = storage_->database->prepare("SELECT 1 FROM missions WHERE name = ?");
-  query.bindText(1, mission);
-  if (!query.step()) return;
-  throw DataError(path_.string() + ": has the mission '" + mission +
-                  "' already, expected one of another name (or --again to integrate it once more)");
+  checkNewAmong(missions(), mission, path_);
 }
 
 void Station::addMission(const MissionRecord& record, const ThermalMap& mission_map, KnownMission known) {
@@ -242,54 +137,55 @@ void Station::addMission(const MissionRecord& record, const ThermalMap& mission_
 }
 
 void Station::addMissions(std::span<const Addition> additions, KnownMission known) {
-  for (const auto& [record, map] : additions) {
-    if (map->options() == options_) continue;
-    throw ConfigError(path_.string() + ": has cells of " + std::to_string(options_.resolution) +
-                      " m, expected a mission mapped with the same resolution and occupancy model (it has " +
-                      std::to_string(map->resolution()) + " m)");
+  for (bool done = false; !done;) {
+    StationContent content{.options = options_};
+    std::unique_ptr<SqlDatabase> there;  // and locked
+    if (database_ || fs::exists(path_)) {
+      checkWritable(path_);
+      there = lockStation(path_, access_.patience);
+      checkStationTables(*there, path_);
+      checkCounts(*there, path_);
+      content.options = readStationOptions(*there, path_);
+      content.missions = readMissions(*there, path_);
+      content.sources.push_back(std::make_unique<StationTiles>(*there, path_));
+    }
+    for (const Addition& addition : additions) {
+      checkAddition(addition, content, known, path_);
+      content.missions.push_back(addition.record);
+      content.sources.push_back(std::make_unique<MapTiles>(*addition.map));
+    }
+    StationWriter writer(path_);
+    writer.write(std::move(content), access_.threads);
+    if (there) writer.publishOver();
+    done = there || writer.publishNew();
   }
-  SqlTransaction transaction(*storage_->database);
-  checkCounts(*storage_->database, path_);
-  for (const auto& [record, map] : additions) {
-    if (known == KnownMission::refuse) checkNew(record.name);
-    insertMission(*storage_->database, record);
-    mergeTiles(*storage_->database, *map, path_);
-  }
-  recordCounts(*storage_->database);
-  transaction.commit();
-  if (!storage_->unfinished.empty()) finishCreation();
+  read();
 }
 
 std::vector<std::string> Station::verify() const {
   std::vector<std::string> faults;
-  try {
-    SqlStatement check = storage_->database->prepare("PRAGMA integrity_check(20)");
-    while (check.step()) {
-      if (check.text(0) != "ok") faults.push_back(path_.string() + ": " + check.text(0));
-    }
+  if (!database_) return faults;
+  const auto note = [&faults](const auto& check) {
     try {
-      checkCounts(*storage_->database, path_);
+      check();
     } catch (const DataError& error) {
       faults.emplace_back(error.what());
     }
-    (void)missions();
-    SqlStatement query =
-        storage_->database->prepare("SELECT x, y, z, data, blocks, surfaces FROM tiles ORDER BY x, y, z");
-    while (query.step()) {
-      try {
-        const TileBlocks blocks = decode(tileKeyOf(query, path_), query.blob(3), path_);
-        if (query.integer(4) != static_cast<std::int64_t>(blocks.size()) ||
-            query.integer(5) != surfacesIn(blocks)) {
-          faults.push_back(path_.string() +
-                           ": a tile holds another number of blocks or surfaces than it says");
-        }
-      } catch (const DataError& error) {
-        faults.emplace_back(error.what());
-      }
+  };
+  note([&] {
+    SqlStatement check = database_->prepare("PRAGMA integrity_check(20)");
+    while (check.step()) {
+      if (check.text(0) != "ok") faults.push_back(path_.string() + ": " + check.text(0));
     }
-  } catch (const DataError& error) {
-    faults.emplace_back(error.what());
-  }
+  });
+  note([&] { checkCounts(*database_, path_); });
+  note([&] { (void)missions(); });
+  note([&] {
+    StationTiles tiles(*database_, path_);
+    forEachDecodedTile(tiles, path_, access_.threads, [&](TileBlocks&, const std::string& fault) {
+      if (!fault.empty()) faults.push_back(fault);
+    });
+  });
   return faults;
 }
 

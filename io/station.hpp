@@ -1,14 +1,18 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "io/sqlite.hpp"
 #include "mapping/thermal_map.hpp"
+#include "projection/pose.hpp"
 
 namespace thermovox {
 
@@ -22,17 +26,29 @@ struct MissionRecord {
   std::int64_t coloured = 0;  ///< of them with a temperature
   std::optional<Time> first;  ///< of the points
   std::optional<Time> last;
-  std::string version;         ///< of thermovox
-  std::int64_t mapped_at = 0;  ///< when it was mapped, Unix seconds
+  std::string version;                  ///< of thermovox
+  std::int64_t mapped_at = 0;           ///< when it was mapped, Unix seconds
+  std::optional<Pose> T_world_mission;  ///< by which a merge has moved it; none as it was mapped
 };
 
 /// What to do with a mission whose name the station has already.
 enum class KnownMission { refuse, add_again };
 
+/// How a station is worked with.
+struct StationAccess {
+  int threads = 0;  ///< that pack and unpack tiles; 0: one for each processor
+  /// How long addMissions waits for another process that writes the station, and what it calls when it begins
+  /// to.
+  SqlDatabase::Patience patience{};
+};
+
 /// The persistent thermal map of a place: one SQLite file with the map in compressed, checksummed tiles and
-/// every mission that went into it. A mission is in it wholly or not at all, whatever happens on the way; a
-/// closed station is one file. All functions throw DataError naming the file when it cannot be read or
-/// written, is damaged, or is no station.
+/// every mission that went into it. The file is never changed: what adds to a station writes a new file
+/// beside it and puts that into its place in one step. So a mission is in the station wholly or not at all
+/// whatever happens on the way, nothing ever lies beside a station but what a writer is at, and who reads one
+/// reads it as it was when it was opened. The bytes depend on the missions alone, not on the order in which
+/// they came. All functions throw DataError naming the file when it cannot be read or written, is damaged, or
+/// is no station.
 class Station {
  public:
   /// What the station holds, as it counted when it was written.
@@ -44,12 +60,16 @@ class Station {
     friend bool operator==(const Counts&, const Counts&) = default;
   };
 
-  /// An existing station; works from a read-only folder too. Refuses one of a newer version of the program.
-  [[nodiscard]] static Station open(const std::filesystem::path& path);
-  /// A new station. Nothing is there under its name until the first mission is in: it is built beside it.
-  /// What killed processes left of such files is removed. Throws DataError when the name is taken or its
-  /// folder does not exist.
-  [[nodiscard]] static Station create(const std::filesystem::path& path, const ThermalMap::Options& options);
+  /// An existing station, for reading at first: needs no right to write and leaves nothing behind. Reads
+  /// stations of every version but those of a newer program.
+  [[nodiscard]] static Station open(const std::filesystem::path& path, StationAccess access = {});
+  /// A new station. Nothing is there under its name until the first mission is in. Throws DataError when the
+  /// name is taken or nothing can be written in its folder.
+  [[nodiscard]] static Station create(const std::filesystem::path& path, const ThermalMap::Options& options,
+                                      StationAccess access = {});
+  /// Throws DataError when a station could not be written under this name, be it there or not. For verbs that
+  /// work for minutes before they write: ask first.
+  static void checkWritable(const std::filesystem::path& path);
 
   Station(Station&&) noexcept;
   Station& operator=(Station&&) noexcept;
@@ -59,7 +79,7 @@ class Station {
   /// Resolution and occupancy model of the map.
   [[nodiscard]] const ThermalMap::Options& options() const { return options_; }
   [[nodiscard]] Counts counts() const;
-  /// In the order in which they were added.
+  /// In the order of their flights: by first stamp, then name.
   [[nodiscard]] std::vector<MissionRecord> missions() const;
   [[nodiscard]] ThermalMap loadMap() const;
 
@@ -71,8 +91,10 @@ class Station {
     MissionRecord record;
     const ThermalMap* map = nullptr;
   };
-  /// Merges the missions' maps into the stored tiles and records the missions, all or none, in one
-  /// transaction. Throws ConfigError when a map has other options than the station.
+  /// Adds the missions' maps to that of the station and records the missions, all or none. Reads again what
+  /// others have added since the station was opened; a new station whose name was taken meanwhile is
+  /// continued. An older version becomes the present one. Throws ConfigError when a map has other options
+  /// than the station.
   void addMissions(std::span<const Addition> additions, KnownMission known);
   void addMission(const MissionRecord& record, const ThermalMap& mission_map, KnownMission known);
 
@@ -80,13 +102,13 @@ class Station {
   [[nodiscard]] std::vector<std::string> verify() const;
 
  private:
-  struct Storage;
-  Station(std::filesystem::path path, ThermalMap::Options options, std::unique_ptr<Storage> storage);
-  void finishCreation();
+  Station(std::filesystem::path path, const ThermalMap::Options& options, StationAccess access);
+  void read();
 
   std::filesystem::path path_;
   ThermalMap::Options options_;
-  std::unique_ptr<Storage> storage_;
+  StationAccess access_;
+  std::unique_ptr<SqlDatabase> database_;  ///< null while nothing is there
 };
 
 }  // namespace thermovox

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/number_text.hpp"
+#include "io/pose_text.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -13,16 +14,21 @@ namespace {
 constexpr std::int64_t kApplicationId = 0x54565831;  // "TVX1": file(1) and SQLite show it
 
 // What `sqlite3 plant.tvx .schema` shows. Times are Unix nanoseconds, NULL where there are none.
+// T_world_mission is "tx ty tz qx qy qz qw" where a merge has moved the mission, NULL where none has.
 constexpr const char* kTables = R"sql(
 CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL);
 CREATE TABLE missions (
   id INTEGER PRIMARY KEY, name TEXT NOT NULL, rig TEXT NOT NULL, parameters TEXT NOT NULL,
   readings INTEGER NOT NULL, points INTEGER NOT NULL, coloured INTEGER NOT NULL,
-  first_ns INTEGER, last_ns INTEGER, version TEXT NOT NULL, mapped_at INTEGER NOT NULL);
+  first_ns INTEGER, last_ns INTEGER, version TEXT NOT NULL, mapped_at INTEGER NOT NULL,
+  T_world_mission TEXT);
 CREATE TABLE tiles (
   x INTEGER NOT NULL, y INTEGER NOT NULL, z INTEGER NOT NULL,
   blocks INTEGER NOT NULL, surfaces INTEGER NOT NULL, data BLOB NOT NULL, PRIMARY KEY (x, y, z));
 )sql";
+
+constexpr const char* kMissionColumns =
+    "name, rig, parameters, readings, points, coloured, first_ns, last_ns, version, mapped_at";
 
 /// The options by their keys in `meta`; one list for writing and reading.
 auto optionFields(auto& options) {
@@ -48,39 +54,89 @@ void writeMeta(SqlDatabase& database, std::string_view key, std::string_view val
   database.prepare("INSERT OR REPLACE INTO meta VALUES (?, ?)").bindText(1, key).bindText(2, value).run();
 }
 
-double readMeta(const SqlDatabase& database, const char* key, const std::filesystem::path& path) {
+std::optional<std::string> metaText(const SqlDatabase& database, const char* key) {
   SqlStatement query = database.prepare("SELECT value FROM meta WHERE key = ?");
   query.bindText(1, key);
-  const std::optional<double> number = query.step() ? parseNumber(query.text(0)) : std::nullopt;
+  return query.step() ? std::optional(query.text(0)) : std::nullopt;
+}
+
+double readMeta(const SqlDatabase& database, const char* key, const std::filesystem::path& path) {
+  const std::optional<std::string> text = metaText(database, key);
+  const std::optional<double> number = text ? parseNumber(*text) : std::nullopt;
   if (!number) throw DataError(path.string() + ": is damaged, its table meta has no number for " + key);
   return *number;
 }
 
 }  // namespace
 
-void createStationTables(SqlDatabase& database, const ThermalMap::Options& options) {
-  SqlTransaction transaction(database);
+void createStationTables(SqlDatabase& database) {
   database.execute(kTables);
   database.execute("PRAGMA application_id = " + std::to_string(kApplicationId));
   database.execute("PRAGMA user_version = " + std::to_string(kStationSchema));
+}
+
+void writeStationMeta(SqlDatabase& database, const ThermalMap::Options& options) {
   writeMeta(database, "schema_version", std::to_string(kStationSchema));
   writeMeta(database, "frame", "world: metres, right-handed, z up");
   for (const auto& [key, value] : optionFields(options)) writeMeta(database, key, exactText(*value));
-  recordCounts(database);
-  transaction.commit();
+  const Station::Counts counts = countStation(database);
+  for (const auto& [key, count] : countFields(counts)) writeMeta(database, key, std::to_string(*count));
+}
+
+void insertMission(SqlDatabase& database, const MissionRecord& record) {
+  SqlStatement insert = database.prepare("INSERT INTO missions (" + std::string(kMissionColumns) +
+                                         ", T_world_mission) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  insert.bindText(1, record.name).bindText(2, record.rig).bindText(3, record.parameters);
+  insert.bind(4, record.readings).bind(5, record.points).bind(6, record.coloured);
+  if (record.first) insert.bind(7, record.first->time_since_epoch().count());
+  if (record.last) insert.bind(8, record.last->time_since_epoch().count());
+  insert.bindText(9, record.version).bind(10, record.mapped_at);
+  if (record.T_world_mission) insert.bindText(11, poseText(*record.T_world_mission));
+  insert.run();
+}
+
+std::vector<MissionRecord> readMissions(const SqlDatabase& database, const std::filesystem::path& path) {
+  const bool has_poses = stationVersion(database) >= 2;
+  std::vector<MissionRecord> missions;
+  SqlStatement query =
+      database.prepare("SELECT " + std::string(kMissionColumns) + ", " +
+                       (has_poses ? "T_world_mission" : "NULL") + " FROM missions ORDER BY id");
+  while (query.step()) {
+    MissionRecord& record = missions.emplace_back();
+    record.name = query.text(0);
+    record.rig = query.text(1);
+    record.parameters = query.text(2);
+    record.readings = query.integer(3);
+    record.points = query.integer(4);
+    record.coloured = query.integer(5);
+    if (!query.isNull(6)) record.first = Time(Duration(query.integer(6)));
+    if (!query.isNull(7)) record.last = Time(Duration(query.integer(7)));
+    record.version = query.text(8);
+    record.mapped_at = query.integer(9);
+    if (query.isNull(10)) continue;
+    record.T_world_mission = parsePose(query.text(10));
+    if (record.T_world_mission) continue;
+    throw DataError(path.string() + ": is damaged, T_world_mission of the mission " + inQuotes(record.name) +
+                    " is " + inQuotes(query.text(10)) + ", expected tx ty tz qx qy qz qw");
+  }
+  return missions;
 }
 
 void checkStationTables(const SqlDatabase& database, const std::filesystem::path& path) {
   if (database.integer("PRAGMA application_id") != kApplicationId) {
     throw DataError(path.string() + ": is a SQLite database but not a station");
   }
-  const std::int64_t version = database.integer("PRAGMA user_version");
+  const std::int64_t version = stationVersion(database);
   if (version > kStationSchema) {
     throw DataError(path.string() + ": was written by a newer thermovox (station version " +
                     std::to_string(version) + "), expected version " + std::to_string(kStationSchema) +
                     " or older: update the program");
   }
   if (version < 1) throw DataError(path.string() + ": is a station of an unknown version");
+}
+
+std::int64_t stationVersion(const SqlDatabase& database) {
+  return database.integer("PRAGMA user_version");
 }
 
 Station::Counts countStation(const SqlDatabase& database) {
@@ -99,9 +155,9 @@ void checkCounts(const SqlDatabase& database, const std::filesystem::path& path)
   }
 }
 
-void recordCounts(SqlDatabase& database) {
-  const Station::Counts counts = countStation(database);
-  for (const auto& [key, count] : countFields(counts)) writeMeta(database, key, std::to_string(*count));
+std::string readStationFrame(const SqlDatabase& database, const std::filesystem::path& path) {
+  if (const std::optional<std::string> frame = metaText(database, "frame")) return *frame;
+  throw DataError(path.string() + ": is damaged, its table meta has no frame");
 }
 
 ThermalMap::Options readStationOptions(const SqlDatabase& database, const std::filesystem::path& path) {

@@ -5,11 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "mapping/block.hpp"
 #include "mapping/cell_key.hpp"
 
 namespace thermovox {
-
-class Block;
 
 /// The blocks of a tile by their keys, ascending.
 using TileBlocks = std::map<BlockKey, Block>;

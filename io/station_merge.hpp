@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "io/atomic_file.hpp"
+#include "io/station.hpp"
+
+namespace thermovox {
+
+/// A station that goes into another.
+struct MergeInput {
+  std::filesystem::path station;
+  /// Takes its coordinates to those of the result; none where they are the same, which is exact. A motion
+  /// resamples the map (see movedMap) and is recorded with its missions.
+  std::optional<Pose> T_world_station;
+};
+
+/// Writes one station of several, which stay as they are. Without motions the result is, to the byte, that of
+/// mapping all the missions into one station, in whatever order. Throws DataError naming the stations when a
+/// mission is in two of them, or when the output is one of them; ConfigError when their cells, occupancy
+/// models or frames differ. On so many threads (0: one for each processor).
+Station::Counts mergeStations(std::span<const MergeInput> inputs, const std::filesystem::path& output,
+                              Existing existing, int threads = 0);
+
+}  // namespace thermovox

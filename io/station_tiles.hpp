@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/sqlite.hpp"
+#include "mapping/thermal_map.hpp"
+#include "mapping/tile_store.hpp"
+
+namespace thermovox {
+
+/// A tile as it lies in a station.
+struct StoredTile {
+  TileKey key;
+  std::int64_t blocks = 0;    ///< that it says it has
+  std::int64_t surfaces = 0;  ///< cells that hold a surface, as it says
+  std::string data;           ///< as encodeTile made it
+};
+
+/// The tiles of one map in ascending order of their keys.
+class TileSource {
+ public:
+  virtual ~TileSource() = default;
+  TileSource(const TileSource&) = delete;
+  TileSource& operator=(const TileSource&) = delete;
+
+  /// Of the tile at hand; nullopt after the last.
+  [[nodiscard]] virtual std::optional<TileKey> key() const = 0;
+
+  /// What the source has of the tile at hand: a tile of a station, or blocks of a map that lives on.
+  struct Part {
+    std::optional<StoredTile> stored;
+    std::vector<BlockView> blocks;
+    bool current = false;  ///< `stored` is as this program would write it
+  };
+  /// Gives the tile at hand and goes to the next.
+  [[nodiscard]] virtual Part next() = 0;
+
+ protected:
+  TileSource() = default;
+};
+
+/// The tiles of a station's database, which must live on; `path` stands for it in messages.
+class StationTiles final : public TileSource {
+ public:
+  StationTiles(const SqlDatabase& database, std::filesystem::path path);
+  [[nodiscard]] std::optional<TileKey> key() const override;
+  [[nodiscard]] Part next() override;
+
+ private:
+  void read();
+
+  std::filesystem::path path_;
+  bool current_;
+  SqlStatement query_;
+  std::optional<StoredTile> tile_;
+};
+
+/// The tiles of a map, which must live on and stay as it is.
+class MapTiles final : public TileSource {
+ public:
+  explicit MapTiles(const ThermalMap& map);
+  [[nodiscard]] std::optional<TileKey> key() const override;
+  [[nodiscard]] Part next() override;
+
+ private:
+  const ThermalMap& map_;
+  std::vector<std::pair<TileKey, BlockKey>> blocks_;  ///< ascending
+  std::size_t place_ = 0;
+};
+
+/// The tile's blocks. Throws DataError naming the station, and when the tile holds other than it says.
+[[nodiscard]] TileBlocks decodeStoredTile(const StoredTile& tile, const std::filesystem::path& path);
+
+/// Decodes all tiles on so many threads (0: one for each processor) and calls visit(blocks, fault) for each
+/// in the order of their keys: a tile without fault, or a fault (one sentence) and no blocks.
+void forEachDecodedTile(StationTiles& tiles, const std::filesystem::path& path, int threads,
+                        const std::function<void(TileBlocks&, const std::string&)>& visit);
+
+[[nodiscard]] std::int64_t surfacesIn(const TileBlocks& blocks);
+
+}  // namespace thermovox

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "mapping/thermal_map.hpp"
+#include "projection/pose.hpp"
+
+namespace thermovox {
+
+/// The map after a rigid motion: T_world_map takes its coordinates to those of the result. A surface goes
+/// with its statistics to the cell where the mean of its returns falls, and adds to what falls there too. A
+/// cell's log-odds are those of the cell in which its centre was before. That resamples: log-odds shift by up
+/// to half a cell's diagonal, surfaces that share a cell afterwards become one, and to move there and back
+/// does not give the same map. Throws DataError when a surface would lie further out than a map reaches.
+[[nodiscard]] ThermalMap movedMap(const ThermalMap& map, const Pose& T_world_map);
+
+}  // namespace thermovox
