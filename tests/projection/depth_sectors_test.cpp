@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -230,6 +231,64 @@ TEST(DepthSectors, IgnorePointsThatTheCameraCannotSee) {
   const DepthSectors sectors = sectorsOf(points);
   for (const Eigen::Vector3d& ray : inImage(randomRays(0.05, 31))) {
     EXPECT_FALSE(sectors.hides(sightOf(ray * 50.0)));
+  }
+}
+
+/// The definition, bin by bin and neighbour by neighbour, for bins of one pixel.
+float hiddenBeyondByDefinition(const std::vector<Eigen::Vector3d>& points,
+                               const DepthSectors::Options& options, int column, int row) {
+  constexpr float kNothing = std::numeric_limits<float>::infinity();
+  const double focal_px = std::min(kCamera.fx(), kCamera.fy());
+  std::vector<std::array<float, 8>> rings(static_cast<std::size_t>(options.radius_bins));
+  for (auto& ring : rings) ring.fill(kNothing);
+  for (const Eigen::Vector3d& p : points) {
+    const auto pixel = kCamera.projectUnbounded(p);
+    if (!pixel) continue;
+    const double du = std::floor(pixel->x() + 0.5) - column;
+    const double dv = std::floor(pixel->y() + 0.5) - row;
+    const double distance = std::hypot(du, dv);
+    const auto ring = static_cast<std::size_t>(std::round(distance));
+    if (distance > 2.0 * options.radius_bins || ring < 1 || ring > rings.size()) continue;
+    const double turn = std::atan2(dv, du) / (2.0 * M_PI) * 8.0 + 0.5;
+    const auto sector = static_cast<std::size_t>((static_cast<int>(std::floor(turn)) + 8) % 8);
+    const double scale = 1.0 / std::max(0.05, 1.0 - options.slope * distance / focal_px);
+    float& nearest = rings[ring - 1][sector];
+    nearest = std::min(nearest, static_cast<float>(p.z()) * static_cast<float>(scale));
+  }
+  std::array<float, 8> sectors;
+  sectors.fill(kNothing);
+  int more_bins = options.more_bins;
+  for (const auto& ring : rings) {
+    for (std::size_t s = 0; s < 8; ++s) sectors[s] = std::min(sectors[s], ring[s]);
+    const bool answered = *std::max_element(sectors.begin(), sectors.end()) < kNothing;
+    if (answered && more_bins-- == 0) break;
+  }
+  float hidden_beyond = kNothing;
+  for (std::size_t i = 0; i < 4; ++i)
+    hidden_beyond = std::min(hidden_beyond, std::max(sectors[i], sectors[i + 4]));
+  return hidden_beyond + static_cast<float>(options.margin);
+}
+
+TEST(DepthSectors, SayAtEveryLevelToTheBitWhatTheirDefinitionSays) {
+  const PlateBeforeWall scene(0.2, {0.15, 0.0, 0.0}, 33);
+  std::mt19937_64 random(34);
+  std::uniform_int_distribution<int> column(0, kCamera.width() - 1), row(0, kCamera.height() - 1);
+  for (const int more_bins : {0, 1, 2}) {
+    const DepthSectors::Options options{.bin_px = 1.0, .radius_bins = 5, .more_bins = more_bins};
+    std::vector<DepthSectors> of_levels;
+    for (const CpuLevel level : {CpuLevel::baseline, CpuLevel::avx2, CpuLevel::avx512}) {
+      if (level > cpuLevel()) continue;
+      of_levels.emplace_back(kCamera, Pose(), options, level);
+      of_levels.back().add(scene.measured);
+      of_levels.back().finish();
+    }
+    for (int i = 0; i < 300; ++i) {
+      const int u = i < 20 ? 0 : column(random);  // the border, too
+      const int v = i < 10 ? kCamera.height() - 1 : row(random);
+      const float expected = hiddenBeyondByDefinition(scene.measured, options, u, v);
+      for (const DepthSectors& sectors : of_levels)
+        EXPECT_EQ(sectors.hiddenBeyond(Eigen::Vector2d(u, v)), expected) << u << ", " << v;
+    }
   }
 }
 

@@ -119,6 +119,23 @@ TEST(LocalVariance, IsFiniteAroundUnknownPixels) {
   EXPECT_EQ(unknown.at({3.0, 3.0}, 1.0), 0.0F);
 }
 
+TEST(LocalVariance, IsTheSameToTheBitAtEveryLevel) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> celsius(-20.0, 500.0), hole(0.0, 1.0);
+  for (const double holes : {0.0, 0.1}) {
+    const auto image = imageOf(kWidth + 3, kHeight, [&](int, int) {
+      return hole(random) < holes ? std::numeric_limits<double>::quiet_NaN() : celsius(random);
+    });
+    const LocalVariance baseline(image, kBlur, kNetd, CpuLevel::baseline);
+    for (const CpuLevel level : {CpuLevel::avx2, CpuLevel::avx512}) {
+      if (level > cpuLevel()) continue;
+      const LocalVariance wide(image, kBlur, kNetd, level);
+      for (int i = 0; i < wide.stride() * (kHeight + 2); ++i)
+        ASSERT_EQ(wide.texels()[i].variance, baseline.texels()[i].variance) << nameOf(level) << " " << i;
+    }
+  }
+}
+
 TEST(LocalVariance, OfPerfectOpticsStillKnowsThePixelsWidth) {
   const LocalVariance variance(imageOf(kWidth, kHeight, [](int u, int) { return 2.0 * u; }), 0.0, 0.0);
   EXPECT_GT(variance.at(kMiddle, 0.0), 0.0F);
