@@ -33,7 +33,7 @@ struct PlacedReturn {
   Time stamp;
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();       ///< metres
   Eigen::Vector3d origin_world = Eigen::Vector3d::Zero();  ///< the laser's centre at that moment, metres
-  double range = 0.0;            ///< the laser's own reading, metres
+  double range = 0.0;                                      ///< the laser's own reading, metres
   /// Covariance (world, m^2) of what moves the point against the camera: range noise, range bias, extrinsics.
   PackedCovariance rig_covariance;
   PackedCovariance pose_covariance;  ///< of what moves both together
