@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
+#include <utility>
 
 #include "mapping/parallel.hpp"
 #include "projection/error.hpp"
@@ -119,24 +121,34 @@ void ReadingIntegrator::sweepTile(const SweptTile& swept, Carving carving) {
   for (const ReadingMarks& marks : marks_) {
     if (ReadingMarks::Tile* tile = marks.find(swept.key)) marked.push_back(tile);
   }
+  for (std::size_t word = 0; word < kTileBlocks / 64; ++word) {
+    // Where no ray was followed, only blocks with a hit have marks.
+    std::uint64_t blocks = carving == Carving::none ? 0 : ~std::uint64_t{0};
+    for (ReadingMarks::Tile* tile : marked) blocks |= std::exchange(tile->hit_blocks[word], 0);
+    for (; blocks != 0; blocks &= blocks - 1) {
+      sweepBlock(static_cast<int>(64 * word) + std::countr_zero(blocks), marked, carving, *swept.tile);
+    }
+  }
+}
+
+void ReadingIntegrator::sweepBlock(int index, std::span<ReadingMarks::Tile* const> marked, Carving carving,
+                                   MapTile& tile) const {
   const bool careful = carving == Carving::careful;
+  CellBits passed{}, hit{}, beside{};
+  for (ReadingMarks::Tile* marks : marked) {
+    if (carving != Carving::none) take(marks->passed, index, passed);
+    take(marks->hit, index, hit);
+    if (careful) take(marks->beside, index, beside);
+  }
+  if (!any(passed, hit)) return;
+  Block& block = tile.blockOrNew(index);
+  if (!block.log_odds.isNarrow()) {
+    throw ConfigError("a reading came to a map that holds several missions, expected the map of one");
+  }
+  if (careful) removeBits(passed, beside, block.surfaceMask());
   OccupancySteps steps = steps_;
   if (careful) steps.before_hit = 0;
-  for (int index = 0; index < kTileBlocks; ++index) {
-    CellBits passed{}, hit{}, beside{};
-    for (ReadingMarks::Tile* tile : marked) {
-      take(tile->passed, index, passed);
-      take(tile->hit, index, hit);
-      if (careful) take(tile->beside, index, beside);
-    }
-    if (!any(passed, hit)) continue;
-    Block& block = swept.tile->blockOrNew(index);
-    if (!block.log_odds.isNarrow()) {
-      throw ConfigError("a reading came to a map that holds several missions, expected the map of one");
-    }
-    if (careful) removeBits(passed, beside, block.surfaceMask());
-    updateLogOdds(block.log_odds.bytes(), passed, hit, steps);
-  }
+  updateLogOdds(block.log_odds.bytes(), passed, hit, steps);
 }
 
 void ReadingIntegrator::addReturns(std::span<const MappedReturn> reading, int worker, int workers) {
@@ -158,6 +170,7 @@ void ReadingIntegrator::addReturns(std::span<const MappedReturn> reading, int wo
     if ((swept - swept_.data()) % workers != worker) continue;
     Block& block = swept->tile->blockOrNew(static_cast<int>(hits_[i].cell >> 9));
     prefetch(&block.surfaceMask());
+    if (i + kBatch < reading.size()) prefetch(&reading[i + kBatch]);
     batch[filled++] = {i, &block};
     if (filled == kBatch) addBatch();
   }

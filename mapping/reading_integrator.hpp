@@ -38,6 +38,8 @@ class ReadingIntegrator {
   void collectTiles(TileTable& tiles, int workers);
   void sweep(Carving carving, int workers);
   void sweepTile(const SweptTile& swept, Carving carving);
+  void sweepBlock(int index, std::span<ReadingMarks::Tile* const> marked, Carving carving,
+                  MapTile& tile) const;
   void addReturns(std::span<const MappedReturn> reading, int worker, int workers);
   void addReturn(const MappedReturn& ret, const HitCell& hit, Block& block) const;
 

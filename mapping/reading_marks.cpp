@@ -27,7 +27,10 @@ ReadingMarks::Tile* ReadingMarks::find(const TileKey& key) const {
 }
 
 void ReadingMarks::markHit(const CellKey& key) {
-  setBit(tileOrNew(tileOf(blockOf(key))).hit, cellInTile(key));
+  Tile& tile = tileOrNew(tileOf(blockOf(key)));
+  const std::uint32_t cell = cellInTile(key);
+  setBit(tile.hit, cell);
+  tile.hit_blocks[cell >> 15] |= std::uint64_t{1} << ((cell >> 9) & 63);
 }
 
 void ReadingMarks::markBeside(const CellKey& key) {

@@ -22,7 +22,8 @@ class ReadingMarks {
     TileKey key;
     Bits passed{};  ///< by a ray; where `hit` is set too, the hit counts
     Bits hit{};
-    Bits beside{};  ///< next to a hit; only where asked for
+    Bits beside{};                                             ///< next to a hit; only where asked for
+    std::array<std::uint64_t, kTileBlocks / 64> hit_blocks{};  ///< those with a hit
   };
 
   void markHit(const CellKey& key);

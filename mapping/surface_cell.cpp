@@ -10,8 +10,7 @@
 namespace thermovox {
 namespace {
 
-constexpr double kZeroCelsius = -274.0;  // where temperatures count from: whole, so that 0 C is exact
-constexpr double kOffsetSteps = 256.0;
+constexpr double kZeroCelsius = -274.0;      // where temperatures count from: whole, so that 0 C is exact
 constexpr double kTemperatureSteps = 512.0;  // a degree
 constexpr double kWeightSteps = 1024.0;      // 1 / C^2
 constexpr int kSquareShift = 21;
@@ -78,44 +77,30 @@ bool isBetterView(std::uint64_t range_a, std::uint64_t incidence_a, std::uint64_
 
 }  // namespace
 
-void SurfaceCell::addReturn(const Eigen::Vector3d& offset) {
-  if (returns >= kMaxReturns) return;
-  for (int i = 0; i < 3; ++i) {
-    offset_sum[i] += static_cast<std::uint64_t>(std::clamp(offset[i] * kOffsetSteps, 0.0, 255.0));
-  }
-  returns += 1;
+/// Adds observations; of two too many for one cell the busier one's stand, ties by the sums.
+inline void SurfaceCell::takeSums(const Sums& other) {
+  const Sums own{observations, weight_sum, weighted_sum, weighted_square_sum};
+  const bool fits = own.observations + other.observations <= kMaxObservations;
+  const Sums sums = fits ? Sums{own.observations + other.observations, own.weight + other.weight,
+                                own.weighted + other.weighted, own.square + other.square}
+                         : std::max(own, other);
+  observations = sums.observations;
+  weight_sum = sums.weight;
+  weighted_sum = sums.weighted;
+  weighted_square_sum = sums.square;
 }
 
-inline void SurfaceCell::addSums(const SurfaceCell& other) {
-  if (observations + other.observations <= kMaxObservations) {
-    observations += other.observations;
-    weight_sum += other.weight_sum;
-    weighted_sum += other.weighted_sum;
-    weighted_square_sum += other.weighted_square_sum;
-    return;
-  }
-  const auto order = [](const SurfaceCell& cell) {  // the busier last, ties by the sums
-    return std::make_tuple(+cell.observations, +cell.weight_sum, +cell.weighted_sum,
-                           +cell.weighted_square_sum);
-  };
-  if (order(other) <= order(*this)) return;
-  observations = other.observations;
-  weight_sum = other.weight_sum;
-  weighted_sum = other.weighted_sum;
-  weighted_square_sum = other.weighted_square_sum;
-}
-
-inline void SurfaceCell::mergeTemperature(const SurfaceCell& other) {
+/// To be called before the observations are added.
+inline void SurfaceCell::takeExtremes(const Extremes& other) {
   const bool first_here = observations == 0;
   if (first_here || other.min_code < min_code) min_code = other.min_code;
   if (first_here || other.max_code > max_code) max_code = other.max_code;
   if (first_here || other.first_code < first_code) first_code = other.first_code;
   if (first_here || other.last_code > last_code) last_code = other.last_code;
-  if (first_here || isBetterView(other.best_range_cm, other.best_incidence, best_range_cm, best_incidence)) {
-    best_range_cm = other.best_range_cm;
-    best_incidence = other.best_incidence;
+  if (first_here || isBetterView(other.range_cm, other.incidence, best_range_cm, best_incidence)) {
+    best_range_cm = other.range_cm;
+    best_incidence = other.incidence;
   }
-  addSums(other);
 }
 
 double SurfaceCell::guardedShare(double celsius, double sigma) const {
@@ -139,17 +124,15 @@ void SurfaceCell::addTemperature(const TemperatureObservation& observation, Time
   const auto w = static_cast<std::uint64_t>(std::max(weight + 0.5, 1.0));
   const auto t = static_cast<std::uint64_t>((celsius - kZeroCelsius) * kTemperatureSteps + 0.5);
   constexpr std::uint64_t half = std::uint64_t{1} << (kSquareShift - 1);
-  SurfaceCell single;
-  single.weight_sum = w;
-  single.weighted_sum = w * t;
-  single.weighted_square_sum = (w * (t * t) + half) >> kSquareShift;
-  single.observations = 1;
-  single.first_code = stampFromZero(stamp) >> kFirstShift;
-  single.last_code = stampFromZero(stamp) >> kLastShift;
-  single.min_code = single.max_code = extremeCode(celsius);
-  single.best_range_cm = rangeCode(observation.range);
-  single.best_incidence = incidenceCode(observation.incidence);
-  mergeTemperature(single);
+  const std::uint64_t from_zero = stampFromZero(stamp);
+  const std::uint64_t extreme = extremeCode(celsius);
+  takeExtremes({.min_code = extreme,
+                .max_code = extreme,
+                .first_code = from_zero >> kFirstShift,
+                .last_code = from_zero >> kLastShift,
+                .range_cm = rangeCode(observation.range),
+                .incidence = incidenceCode(observation.incidence)});
+  takeSums({1, w, w * t, (w * (t * t) + half) >> kSquareShift});
 }
 
 void SurfaceCell::merge(const SurfaceCell& other) {
@@ -163,7 +146,10 @@ void SurfaceCell::merge(const SurfaceCell& other) {
              order(*this) < order(other)) {
     std::tie(returns, offset_sum) = std::tie(other.returns, other.offset_sum);  // the busier one's position
   }
-  if (other.observations > 0) mergeTemperature(other);
+  if (other.observations == 0) return;
+  takeExtremes({other.min_code, other.max_code, other.first_code, other.last_code, other.best_range_cm,
+                other.best_incidence});
+  takeSums({other.observations, other.weight_sum, other.weighted_sum, other.weighted_square_sum});
 }
 
 bool SurfaceCell::isPlausible() const {

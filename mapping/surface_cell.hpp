@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
 
 #include "mapping/cell_key.hpp"
@@ -30,6 +32,7 @@ struct TemperatureObservation {
 /// bias.
 struct SurfaceCell {
   static constexpr double kMinCelsius = -273.15, kMaxCelsius = 3000.0;
+  static constexpr double kOffsetSteps = 256.0;  ///< in an edge
   static constexpr double kMinSigma = 0.02, kMaxSigma = 32.0;
   /// Returns after which a cell's mean position stands still (its sums hold no more).
   static constexpr std::uint32_t kMaxReturns = (1U << 24) - 1;
@@ -59,7 +62,14 @@ struct SurfaceCell {
   static constexpr std::uint8_t kUnknownIncidence = 0xFF;
 
   /// Adds a laser return at `offset` within the cell, in edges: [0, 1) on each axis, clamped to it.
-  void addReturn(const Eigen::Vector3d& offset);
+  void addReturn(const Eigen::Vector3d& offset) {
+    if (returns >= kMaxReturns) return;
+    for (int i = 0; i < 3; ++i) {
+      const double steps = std::min(std::max(offset[i] * kOffsetSteps, 0.0), kOffsetSteps - 1.0);
+      offset_sum[static_cast<std::size_t>(i)] += static_cast<std::uint64_t>(steps);
+    }
+    returns += 1;
+  }
 
   /// Adds one temperature with weight 1 / sigma^2 and Huber's guard against the cell's own statistics, which
   /// must be of the same mission: once four observations are in, one that is more than 2.5 standard
@@ -109,10 +119,15 @@ struct SurfaceCell {
   }
 
  private:
-  /// All but the returns. Precondition: other.observations > 0.
-  void mergeTemperature(const SurfaceCell& other);
-  /// Observations, weights and moments; of two too many for one cell the busier one's.
-  void addSums(const SurfaceCell& other);
+  struct Sums {
+    std::uint64_t observations, weight, weighted, square;
+    friend auto operator<=>(const Sums&, const Sums&) = default;
+  };
+  struct Extremes {
+    std::uint64_t min_code, max_code, first_code, last_code, range_cm, incidence;
+  };
+  void takeSums(const Sums& other);
+  void takeExtremes(const Extremes& other);
   /// 1, or less for an observation that is far off.
   [[nodiscard]] double guardedShare(double celsius, double sigma) const;
   [[nodiscard]] bool hasPlausibleTemperature() const;

@@ -13,6 +13,14 @@ bool isWithin(const Eigen::Vector3d& p_world, double reach) {
   return p_world.cwiseAbs().maxCoeff() < reach && p_world.allFinite();
 }
 
+DataError tooFarOut(const MappedReturn& ret, double reach) {
+  std::ostringstream message;
+  message << "a return at (" << ret.p_world.transpose() << ") m seen from (" << ret.origin_world.transpose()
+          << ") m came to the map, expected coordinates within " << reach
+          << " m of the origin of the world: use a local one";
+  return DataError(message.str());
+}
+
 }  // namespace
 
 void ThermalMap::Options::validate() const {
@@ -43,19 +51,12 @@ void ThermalMap::spillTo(TileStore& store, std::size_t limit_bytes) {
 void ThermalMap::check(std::span<const MappedReturn> reading) const {
   const double reach = kMaxCellKey * options_.resolution;
   for (const MappedReturn& ret : reading) {
-    std::ostringstream message;
-    if (!isWithin(ret.p_world, reach) || !isWithin(ret.origin_world, reach)) {
-      message << "a return at (" << ret.p_world.transpose() << ") m seen from ("
-              << ret.origin_world.transpose() << ") m came to the map, expected coordinates within " << reach
-              << " m of the origin of the world: use a local one";
-      throw DataError(message.str());
-    }
-    if (ret.temperature &&
-        !(std::isfinite(ret.temperature->celsius) && std::isfinite(ret.temperature->sigma))) {
-      message << "a temperature of " << ret.temperature->celsius << " C with sigma " << ret.temperature->sigma
-              << " C came to the map, expected finite numbers";
-      throw DataError(message.str());
-    }
+    if (!isWithin(ret.p_world, reach) || !isWithin(ret.origin_world, reach)) throw tooFarOut(ret, reach);
+    if (!ret.temperature) continue;
+    const auto [celsius, sigma, range, incidence] = *ret.temperature;
+    if (std::isfinite(celsius) && std::isfinite(sigma)) continue;
+    throw DataError("a temperature of " + std::to_string(celsius) + " C with sigma " + std::to_string(sigma) +
+                    " C came to the map, expected finite numbers");
   }
 }
 
