@@ -142,11 +142,12 @@ std::optional<Station> existingStation(const MapJob& job) {
 
 /// What the map needs to be made again from its missions.
 std::string parametersOf(const MapJob& job) {
-  const nlohmann::ordered_json json{{"carve", job.mapper.carving == Carving::octomap ? "octomap" : "none"},
-                                    {"max_gap", job.max_gap},
-                                    {"two_pass", job.two_pass || job.paint},
-                                    {"paint", job.paint}};
-  return json.dump();
+  nlohmann::ordered_json json{{"carve", job.mapper.carving == Carving::octomap ? "octomap" : "none"},
+                              {"max_gap", job.max_gap},
+                              {"two_pass", job.two_pass || job.paint},
+                              {"paint", job.paint}};
+  for (const fs::path& file : job.geometry) json["geometry"].push_back(cloudName(file));
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 /// Before hours of work: a mission or cloud that the station has already, or that is named twice.
