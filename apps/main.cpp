@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("thermovox ") + THERMOVOX_VERSION);
   thermovox::addSimulate(app);
   thermovox::addMap(app);
+  thermovox::addMerge(app);
   thermovox::addExport(app);
   thermovox::addInfo(app);
   thermovox::addOverlay(app);

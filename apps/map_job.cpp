@@ -115,13 +115,23 @@ MissionReport mapOne(OpenedMission& opened, const MapJob& job, std::vector<const
   return report;
 }
 
-/// The station to continue; none when it is to be made. A resolution that contradicts it is refused.
+/// How to wait for another process that writes the station.
+StationAccess accessOf(const fs::path& station) {
+  return {.patience = {.begins = [station] {
+            spdlog::info("{}: waits for another process that is writing it", station.string());
+          }}};
+}
+
+/// The station to continue; none when it is to be made. One that could not be written is refused before hours
+/// of work, and so is a resolution that contradicts it.
 std::optional<Station> existingStation(const MapJob& job) {
   if (!fs::exists(job.station)) {
     checkOutput(job.station, Existing::refuse);
+    Station::checkWritable(job.station);
     return std::nullopt;
   }
-  Station station = Station::open(job.station);
+  Station::checkWritable(job.station);
+  Station station = Station::open(job.station, accessOf(job.station));
   if (job.resolution && *job.resolution != station.options().resolution) {
     throw ConfigError(job.station.string() + ": has cells of " +
                       std::to_string(station.options().resolution) + " m, --resolution asks for " +
@@ -132,11 +142,12 @@ std::optional<Station> existingStation(const MapJob& job) {
 
 /// What the map needs to be made again from its missions.
 std::string parametersOf(const MapJob& job) {
-  const nlohmann::ordered_json json{{"carve", job.mapper.carving == Carving::octomap ? "octomap" : "none"},
-                                    {"max_gap", job.max_gap},
-                                    {"two_pass", job.two_pass || job.paint},
-                                    {"paint", job.paint}};
-  return json.dump();
+  nlohmann::ordered_json json{{"carve", job.mapper.carving == Carving::octomap ? "octomap" : "none"},
+                              {"max_gap", job.max_gap},
+                              {"two_pass", job.two_pass || job.paint},
+                              {"paint", job.paint}};
+  for (const fs::path& file : job.geometry) json["geometry"].push_back(cloudName(file));
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 /// Before hours of work: a mission or cloud that the station has already, or that is named twice.
@@ -239,7 +250,7 @@ MapResult run(MapJob& job) {
   MapResult result;
   result.missions = mapMissions(missions, job, before ? &*before : nullptr, additions, points.get());
   if (points) points->finish();
-  if (!station) station.emplace(Station::create(job.station, options));
+  if (!station) station.emplace(Station::create(job.station, options, accessOf(job.station)));
   station->addMissions(additions.all(), job.known);
   if (points) points->commit();
   result.voxels = static_cast<std::size_t>(station->counts().surfaces);

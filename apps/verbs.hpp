@@ -9,6 +9,7 @@ namespace thermovox {
 // One verb, one file: parse, one library call, one report.
 void addSimulate(CLI::App& app);
 void addMap(CLI::App& app);
+void addMerge(CLI::App& app);
 void addExport(CLI::App& app);
 void addInfo(CLI::App& app);
 void addOverlay(CLI::App& app);

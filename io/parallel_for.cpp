@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include "mapping/parallel.hpp"
+
 namespace thermovox {
 
 void parallelFor(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
@@ -22,11 +24,7 @@ void parallelFor(std::size_t count, int threads, const std::function<void(std::s
       }
     }
   };
-  {
-    std::vector<std::jthread> helpers;
-    for (std::size_t i = 1; i < std::min(wanted, count); ++i) helpers.emplace_back(run);
-    run();
-  }
+  runInParallel(static_cast<int>(std::min(wanted, count)), [&](int) { run(); });
   for (const std::exception_ptr& error : errors) {
     if (error) std::rethrow_exception(error);
   }

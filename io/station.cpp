@@ -62,14 +62,18 @@ void checkNewAmong(const std::vector<MissionRecord>& missions, const std::string
   }
 }
 
+void checkOptions(const ThermalMap::Options& of_map, const ThermalMap::Options& of_station,
+                  const fs::path& path) {
+  if (of_map == of_station) return;
+  throw ConfigError(path.string() + ": has cells of " + std::to_string(of_station.resolution) +
+                    " m, expected a map of the same resolution and occupancy model (it has " +
+                    std::to_string(of_map.resolution) + " m)");
+}
+
 void checkAddition(const Station::Addition& addition, const StationContent& content, KnownMission known,
                    const fs::path& path) {
   const auto& [record, map] = addition;
-  if (map->options() != content.options) {
-    throw ConfigError(path.string() + ": has cells of " + std::to_string(content.options.resolution) +
-                      " m, expected a mission mapped with the same resolution and occupancy model (it has " +
-                      std::to_string(map->resolution()) + " m)");
-  }
+  checkOptions(map->options(), content.options, path);
   if (known == KnownMission::refuse) checkNewAmong(content.missions, record.name, path);
 }
 
@@ -118,13 +122,18 @@ std::vector<MissionRecord> Station::missions() const {
 
 ThermalMap Station::loadMap() const {
   ThermalMap map(options_);
-  if (!database_) return map;
+  loadInto(map);
+  return map;
+}
+
+void Station::loadInto(ThermalMap& map) const {
+  checkOptions(map.options(), options_, path_);
+  if (!database_) return;
   StationTiles tiles(*database_, path_);
   forEachDecodedTile(tiles, path_, access_.threads, [&](TileBlocks& blocks, const std::string& fault) {
     if (!fault.empty()) throw DataError(fault);
     for (auto& [key, block] : blocks) map.setBlock(key, std::move(block));
   });
-  return map;
 }
 
 void Station::checkNew(const std::string& mission) const {

@@ -82,6 +82,9 @@ class Station {
   /// In the order of their flights: by first stamp, then name.
   [[nodiscard]] std::vector<MissionRecord> missions() const;
   [[nodiscard]] ThermalMap loadMap() const;
+  /// The same into a map without content, which may have a limit of its memory. Throws ConfigError when it
+  /// has other options.
+  void loadInto(ThermalMap& map) const;
 
   /// Throws DataError naming mission and station when it has a mission of that name. For verbs that work for
   /// minutes before they write: ask first.

@@ -1,7 +1,5 @@
 #include "io/station_tiles.hpp"
 
-#include <algorithm>
-
 #include "io/parallel_for.hpp"
 #include "io/station_schema.hpp"
 #include "io/tile_codec.hpp"
@@ -53,23 +51,20 @@ TileSource::Part StationTiles::next() {
   return part;
 }
 
-MapTiles::MapTiles(const ThermalMap& map) : map_(map) {
-  for (const BlockKey& key : map.sortedBlockKeys()) blocks_.emplace_back(tileOf(key), key);
-  std::sort(blocks_.begin(), blocks_.end());
-}
+MapTiles::MapTiles(const ThermalMap& map) : map_(map), keys_(map.sortedTileKeys()) {}
 
 std::optional<TileKey> MapTiles::key() const {
-  return place_ < blocks_.size() ? std::optional(blocks_[place_].first) : std::nullopt;
+  return place_ < keys_.size() ? std::optional(keys_[place_]) : std::nullopt;
 }
 
 TileSource::Part MapTiles::next() {
-  Part part;
-  for (const TileKey tile = blocks_[place_].first; place_ < blocks_.size(); ++place_) {
-    const auto& [own_tile, key] = blocks_[place_];
-    if (own_tile != tile) break;
-    part.blocks.push_back({key, map_.block(key)});
-  }
-  return part;
+  return {.tile = map_.tile(keys_[place_++])};
+}
+
+std::vector<BlockView> viewsOf(const TileKey& key, const MapTile& tile) {
+  std::vector<BlockView> views;
+  tile.forEachBlock([&](int index, const Block& block) { views.push_back({blockAt(key, index), &block}); });
+  return views;
 }
 
 std::int64_t surfacesIn(const TileBlocks& blocks) {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/sqlite.hpp"
@@ -32,11 +32,11 @@ class TileSource {
   /// Of the tile at hand; nullopt after the last.
   [[nodiscard]] virtual std::optional<TileKey> key() const = 0;
 
-  /// What the source has of the tile at hand: a tile of a station, or blocks of a map that lives on.
+  /// What the source has of the tile at hand: a tile of a station, or of a map that lives on.
   struct Part {
     std::optional<StoredTile> stored;
-    std::vector<BlockView> blocks;
     bool current = false;  ///< `stored` is as this program would write it
+    std::shared_ptr<const MapTile> tile;
   };
   /// Gives the tile at hand and goes to the next.
   [[nodiscard]] virtual Part next() = 0;
@@ -70,7 +70,7 @@ class MapTiles final : public TileSource {
 
  private:
   const ThermalMap& map_;
-  std::vector<std::pair<TileKey, BlockKey>> blocks_;  ///< ascending
+  std::vector<TileKey> keys_;  ///< ascending
   std::size_t place_ = 0;
 };
 
@@ -83,5 +83,7 @@ void forEachDecodedTile(StationTiles& tiles, const std::filesystem::path& path, 
                         const std::function<void(TileBlocks&, const std::string&)>& visit);
 
 [[nodiscard]] std::int64_t surfacesIn(const TileBlocks& blocks);
+/// The blocks of a tile where they are.
+[[nodiscard]] std::vector<BlockView> viewsOf(const TileKey& key, const MapTile& tile);
 
 }  // namespace thermovox

@@ -102,18 +102,20 @@ std::vector<TileJob> nextJobs(std::vector<std::unique_ptr<TileSource>>& sources)
 StoredTile stored(TileJob& job, const fs::path& path) {
   TileSource::Part& only = job.parts.front();
   if (job.parts.size() == 1 && only.stored && only.current) return std::move(*only.stored);
-  if (job.parts.size() == 1 && !only.stored) {
+  if (job.parts.size() == 1 && only.tile) {
+    const std::vector<BlockView> blocks = viewsOf(job.key, *only.tile);
     std::size_t surfaces = 0;
-    for (const BlockView& view : only.blocks) surfaces += view.block->surfaceCount();
-    return {job.key, static_cast<std::int64_t>(only.blocks.size()), static_cast<std::int64_t>(surfaces),
-            encodeTile(only.blocks)};
+    for (const BlockView& view : blocks) surfaces += view.block->surfaceCount();
+    return {job.key, static_cast<std::int64_t>(blocks.size()), static_cast<std::int64_t>(surfaces),
+            encodeTile(blocks)};
   }
   TileBlocks sum;
   for (TileSource::Part& part : job.parts) {
     if (part.stored) {
       for (const auto& [key, block] : decodeStoredTile(*part.stored, path)) sum[key].merge(block);
+    } else {
+      for (const BlockView& view : viewsOf(job.key, *part.tile)) sum[view.key].merge(*view.block);
     }
-    for (const BlockView& view : part.blocks) sum[view.key].merge(*view.block);
   }
   return {job.key, static_cast<std::int64_t>(sum.size()), surfacesIn(sum), encodeTile(sum)};
 }

@@ -20,12 +20,11 @@ namespace {
 // A tile, before compression: the layout's number (u8), how many blocks (u16); then, each for all blocks in
 // the order of their places: the place in the tile (u16, x fastest, ascending), whether its log-odds take two
 // bytes (u8), the log-odds (512 x i8, -128 unknown; or 512 x i16), a bit for each cell that holds a surface
-// (8 x u64); and at last the surfaces as they lie in memory (SurfaceCell: packed, little endian). Everything
-// but the first three is copied, not spelled out: a packed SurfaceCell holds on little-endian machines only.
+// (8 x u64); and at last all surfaces, their first bytes, then their second bytes and so on (SurfaceCell:
+// packed, little endian): alike bytes side by side are packed 40 % faster and 8 % smaller.
 
 constexpr std::uint8_t kLayout = 2;
-// Measured (tests/benchmark/station_benchmark.cpp): 3 makes a station 4 % smaller and saves at half the
-// speed.
+// Measured on the hall of tests/benchmark: 3 makes a station 3 % smaller and packs at half the speed.
 constexpr int kCompressionLevel = 1;
 constexpr std::size_t kPlane = kBlockCells * sizeof(std::int8_t);
 constexpr std::size_t kWidePlane = kBlockCells * sizeof(LogOdds);
@@ -96,6 +95,32 @@ void appendLogOdds(std::string& bytes, const BlockLogOdds& log_odds, bool wide) 
   }
 }
 
+/// Blocks with their places in the tile, ascending.
+using OrderedBlocks = std::vector<std::pair<int, const Block*>>;
+
+OrderedBlocks inOrder(std::span<const BlockView> blocks) {
+  OrderedBlocks ordered;
+  for (const BlockView& view : blocks) ordered.emplace_back(indexInTile(view.key), view.block);
+  std::sort(ordered.begin(), ordered.end());
+  return ordered;
+}
+
+/// Precondition: `count` is how many surfaces the blocks have together.
+void appendSurfaces(std::string& bytes, const OrderedBlocks& blocks, std::size_t count) {
+  const std::size_t begin = bytes.size();
+  bytes.resize(begin + count * sizeof(SurfaceCell));
+  std::size_t first = 0;
+  for (const auto& [place, block] : blocks) {
+    const std::size_t own = block->surfaceCount();
+    const char* cells = reinterpret_cast<const char*>(block->surfaces().data());
+    for (std::size_t byte = 0; byte < sizeof(SurfaceCell); ++byte) {
+      char* alike = bytes.data() + begin + byte * count + first;
+      for (std::size_t k = 0; k < own; ++k) alike[k] = cells[k * sizeof(SurfaceCell) + byte];
+    }
+    first += own;
+  }
+}
+
 /// Takes a tile's bytes apart; whatever does not fit is refused.
 class TileReader {
  public:
@@ -112,7 +137,7 @@ class TileReader {
     std::vector<CellBits> masks(count);
     const std::string_view packed_masks = take(count * sizeof(CellBits));
     if (count > 0) std::memcpy(masks.data(), packed_masks.data(), packed_masks.size());
-    for (std::size_t i = 0; i < count; ++i) readSurfaces(blocks[i], masks[i]);
+    readSurfaces(blocks, masks);
     if (reader_.left() != 0) refuse(key_, "it is longer than its blocks");
     TileBlocks by_key;
     for (std::size_t i = 0; i < count; ++i) by_key.emplace(blockAt(key_, places[i]), std::move(blocks[i]));
@@ -153,17 +178,29 @@ class TileReader {
     }
   }
 
-  void readSurfaces(Block& block, const CellBits& mask) {
+  void readSurfaces(std::vector<Block>& blocks, const std::vector<CellBits>& masks) {
     std::size_t count = 0;
-    for (const std::uint64_t word : mask) count += static_cast<std::size_t>(std::popcount(word));
-    if (count == 0) return;
-    const std::string_view packed = take(count * sizeof(SurfaceCell));
-    std::vector<SurfaceCell> surfaces(count);
-    std::memcpy(static_cast<void*>(surfaces.data()), packed.data(), packed.size());
-    for (const SurfaceCell& cell : surfaces) {
-      if (!cell.isPlausible()) refuse(key_, "a surface cell contradicts itself");
+    for (const CellBits& mask : masks) count += bitsIn(mask);
+    const std::string_view bytes = take(count * sizeof(SurfaceCell));
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      std::vector<SurfaceCell> surfaces(bitsIn(masks[i]));
+      char* cells = reinterpret_cast<char*>(surfaces.data());
+      for (std::size_t byte = 0; byte < sizeof(SurfaceCell); ++byte) {
+        const char* alike = bytes.data() + byte * count + first;
+        for (std::size_t k = 0; k < surfaces.size(); ++k) cells[k * sizeof(SurfaceCell) + byte] = alike[k];
+      }
+      for (const SurfaceCell& cell : surfaces) {
+        if (!cell.isPlausible()) refuse(key_, "a surface cell contradicts itself");
+      }
+      first += surfaces.size();
+      if (!surfaces.empty()) blocks[i].setSurfaces(masks[i], std::move(surfaces));
     }
-    block.setSurfaces(mask, std::move(surfaces));
+  }
+  [[nodiscard]] static std::size_t bitsIn(const CellBits& mask) {
+    std::size_t bits = 0;
+    for (const std::uint64_t word : mask) bits += static_cast<std::size_t>(std::popcount(word));
+    return bits;
   }
 
   TileKey key_;
@@ -173,13 +210,9 @@ class TileReader {
 }  // namespace
 
 std::string encodeTile(std::span<const BlockView> blocks) {
-  std::vector<std::pair<int, const Block*>> ordered;
+  const OrderedBlocks ordered = inOrder(blocks);
   std::size_t surfaces = 0;
-  for (const BlockView& view : blocks) {
-    ordered.emplace_back(indexInTile(view.key), view.block);
-    surfaces += view.block->surfaceCount();
-  }
-  std::sort(ordered.begin(), ordered.end());
+  for (const auto& [place, block] : ordered) surfaces += block->surfaceCount();
   std::string bytes;
   bytes.reserve(3 + ordered.size() * (3 + kPlane + sizeof(CellBits)) + surfaces * sizeof(SurfaceCell));
   appendLittleEndian(bytes, kLayout);
@@ -193,8 +226,7 @@ std::string encodeTile(std::span<const BlockView> blocks) {
   for (std::size_t i = 0; i < ordered.size(); ++i) appendLogOdds(bytes, ordered[i].second->log_odds, wide[i]);
   for (const auto& [place, block] : ordered)
     bytes.append(reinterpret_cast<const char*>(block->surfaceMask().data()), sizeof(CellBits));
-  for (const auto& [place, block] : ordered)
-    bytes.append(reinterpret_cast<const char*>(block->surfaces().data()), block->surfaces().size_bytes());
+  appendSurfaces(bytes, ordered, surfaces);
   return compressed(bytes);
 }
 

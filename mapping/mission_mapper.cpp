@@ -171,13 +171,14 @@ void MissionMapper::closeFrame() {
 std::unique_ptr<Occluder> MissionMapper::occluderFor(const ThermalView& view) {
   const Camera& camera = mission_.rig.thermal_camera->camera;
   auto depths = std::make_unique<DepthSectors>(camera, view.T_camera_world, options_.visibility);
-  addSurfacesInView(map_, view.T_camera_world, *depths);
+  const double range = viewRange(view);
+  addSurfacesInView(map_, ViewCone(camera, view.T_camera_world, range), *depths);
   for (const WaitingReading& reading : readings_) {
     for (const PlacedReturn& placed : reading.returns) depths->add(placed.p_world);
   }
   if (options_.scene != nullptr) {
     const auto add = [&depths](const SceneSurface& surface) { depths->add(surface.p_world); };
-    options_.scene->forEachInView(camera, view.T_camera_world, farthestWaiting(view), add);
+    options_.scene->forEachInView(camera, view.T_camera_world, range, add);
   }
   depths->finish();
   return depths;
@@ -185,16 +186,14 @@ std::unique_ptr<Occluder> MissionMapper::occluderFor(const ThermalView& view) {
 
 std::unique_ptr<Occluder> MissionMapper::secondLook(const ThermalView& view) {
   const ThermalCamera& camera = *mission_.rig.thermal_camera;
-  double range = farthestWaiting(view);
-  if (options_.pass == Pass::paint) range = std::max(range, paintRange(camera, map_.resolution()));
-  auto scene_view = std::make_unique<SceneView>(camera.camera, view.T_camera_world, *options_.scene, range,
-                                                options_.scene_visibility);
+  auto scene_view = std::make_unique<SceneView>(camera.camera, view.T_camera_world, *options_.scene,
+                                                viewRange(view), options_.scene_visibility);
   if (options_.pass == Pass::paint) paint(view, camera, *scene_view, widestRangeSigma(mission_.rig), map_);
   return scene_view;
 }
 
-double MissionMapper::farthestWaiting(const ThermalView& view) const {
-  double farthest = 0.0;
+double MissionMapper::viewRange(const ThermalView& view) const {
+  double farthest = paintRange(*mission_.rig.thermal_camera, map_.resolution());
   for (const WaitingReading& reading : readings_) {
     for (const PlacedReturn& placed : reading.returns) {
       farthest = std::max(farthest, (placed.p_world - view.T_world_camera.translation).norm());
@@ -234,10 +233,8 @@ void MissionMapper::addToMap(std::span<const MappedReturn> reading) {
 void MissionMapper::countPainted() {
   if (options_.pass != Pass::paint) return;
   map_.forEachBlock([this](const BlockKey&, const Block& block) {
-    for (int index = 0; index < kBlockCells; ++index) {
-      const SurfaceCell* surface = block.surface(index);
-      report_.painted += surface != nullptr && surface->observations > 0;
-    }
+    block.forEachSurface(
+        [this](int, const SurfaceCell& surface) { report_.painted += surface.observations > 0; });
   });
 }
 

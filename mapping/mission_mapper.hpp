@@ -83,8 +83,9 @@ class MissionMapper {
   void closeFrame();
   [[nodiscard]] std::unique_ptr<Occluder> occluderFor(const ThermalView& view);
   [[nodiscard]] std::unique_ptr<Occluder> secondLook(const ThermalView& view);
-  /// Distance of the farthest return that may ask the frame, metres.
-  [[nodiscard]] double farthestWaiting(const ThermalView& view) const;
+  /// How far a frame looks for surfaces, metres: to the farthest return that may ask it, and as far as it
+  /// paints, because what stands behind a point tells that nothing stands before it.
+  [[nodiscard]] double viewRange(const ThermalView& view) const;
   void countPainted();
   void mapReading(const WaitingReading& reading);
   void addToMap(std::span<const MappedReturn> reading);

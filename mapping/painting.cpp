@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <variant>
+#include <span>
+#include <vector>
 
-#include "projection/colouring.hpp"
+#include "projection/colouring_batch.hpp"
 
 namespace thermovox {
 namespace {
@@ -29,19 +30,30 @@ void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView
            double range_sigma, ThermalMap& map) {
   const double range = paintRange(camera, map.resolution());
   const double variance = range_sigma * range_sigma + map.resolution() * map.resolution() / 12.0;
-  PlacedReturn placed;
-  placed.rig_covariance = variance * Eigen::Matrix3d::Identity();
+  const PackedCovariance covariance = variance * Eigen::Matrix3d::Identity();
+  std::vector<const SceneSurface*> surfaces;
+  std::vector<PlacedReturn> points;
   for (const SceneView::Seen& seen : scene_view.surfaces()) {
-    placed.p_world = seen.surface.p_world;
-    if ((placed.p_world - seen.sight.camera_world).norm() > range) continue;
-    const auto result = colour(placed, view, camera, scene_view);
-    const Colour* found = std::get_if<Colour>(&result);
-    if (found == nullptr) continue;
-    const TemperatureObservation observation{.celsius = found->celsius,
-                                             .sigma = found->sigma,
-                                             .range = found->range,
-                                             .incidence = incidenceOf(seen.surface, seen.sight.camera_world)};
-    map.observe(seen.surface.key, observation, view.frame.stamp);
+    const Eigen::Vector3d& p_world = seen.surface.p_world;
+    const double distance = (p_world - seen.sight.camera_world).norm();
+    if (distance > range) continue;
+    surfaces.push_back(&seen.surface);
+    points.push_back({.stamp = view.frame.stamp,
+                      .p_world = p_world,
+                      .origin_world = seen.sight.camera_world,
+                      .range = distance,
+                      .rig_covariance = covariance});
+  }
+  ColouringBatch batch;
+  const std::span<const PointColour> colours = batch.colour(points, {view, camera, scene_view});
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    if (colours[i].outcome != PointColour::Outcome::coloured) continue;
+    const TemperatureObservation observation{
+        .celsius = colours[i].celsius,
+        .sigma = colours[i].sigma,
+        .range = colours[i].range,
+        .incidence = incidenceOf(*surfaces[i], view.T_world_camera.translation)};
+    map.observe(surfaces[i]->key, observation, view.frame.stamp);
   }
 }
 

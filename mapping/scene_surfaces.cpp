@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mapping/view_cone.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -16,22 +17,6 @@ constexpr std::uint64_t kViewsKept = 16;            // views after which an unus
 constexpr int kReach = 2;                           // cells around one that tell its normal
 constexpr std::size_t kFewest = 6;                  // points that make a plane
 constexpr double kPlanar = 0.35;                    // thickness of a plane against its shorter width
-constexpr double kConeMargin = 0.1;                 // radians; what lies beside the image hides things in it
-
-/// Half the angle of the cone about the optical axis that holds the image, radians.
-double halfAngle(const Camera& camera) {
-  const double right = camera.width() - 0.5;
-  const double bottom = camera.height() - 0.5;
-  double widest = 0.0;
-  for (const double u : {-0.5, 0.5 * right, right}) {
-    for (const double v : {-0.5, 0.5 * bottom, bottom}) {
-      const auto ray = camera.rayFromPixel({u, v});
-      const double tangent = ray ? ray->head<2>().norm() : camera.validRadius();
-      widest = std::max(widest, std::atan(tangent));
-    }
-  }
-  return widest + kConeMargin;
-}
 
 /// The surfaces in and around a tile by their cells, to find neighbours at once.
 class Neighbourhood {
@@ -112,28 +97,25 @@ SceneSurfaces::SceneSurfaces(std::vector<const ThermalMap*> maps) : maps_(std::m
     if (map->options() != maps_.front()->options()) {
       throw ConfigError("the maps of a scene: expected one resolution and one occupancy model");
     }
-    map->forEachBlock([this](const BlockKey& key, const Block&) { keys_.push_back(tileOf(key)); });
-    std::sort(keys_.begin(), keys_.end());
-    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+    const auto collect = [this](const TileKey& key) {
+      keys_.push_back(key);
+      return false;  // its blocks are not needed yet
+    };
+    map->forEachBlockOfTiles(collect, [](const BlockKey&, const Block&) {});
   }
+  std::sort(keys_.begin(), keys_.end());
+  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
 }
 
 std::vector<TileKey> SceneSurfaces::tilesInView(const Camera& camera, const Pose& T_camera_world,
                                                 double range) const {
   const double edge = resolution() * kTileCells;
   const double radius = 0.5 * std::sqrt(3.0) * edge;
-  const double half_angle = halfAngle(camera);
+  const ViewCone cone(camera, T_camera_world, range);
   std::vector<TileKey> seen;
   for (const TileKey& key : keys_) {
     const Eigen::Vector3d center = (Eigen::Vector3d(key.x, key.y, key.z).array() + 0.5) * edge;
-    const Eigen::Vector3d center_camera = T_camera_world * center;
-    const double distance = center_camera.norm();
-    if (distance > range + radius) continue;
-    if (distance > radius) {
-      const double off_axis = std::atan2(center_camera.head<2>().norm(), center_camera.z());
-      if (off_axis > half_angle + std::asin(radius / distance)) continue;
-    }
-    seen.push_back(key);
+    if (cone.mayHold(center, radius)) seen.push_back(key);
   }
   return seen;
 }
@@ -177,9 +159,11 @@ void SceneSurfaces::appendBlock(const BlockKey& key, std::vector<SceneSurface>& 
   if (layers.empty()) return;
   const OccupancyModel& model = maps_.front()->occupancyModel();
   for (int index = 0; index < kBlockCells; ++index) {
+    const auto hasSurface = [index](const auto& layer) { return layer.second->hasSurface(index); };
+    if (std::none_of(layers.begin(), layers.end(), hasSurface)) continue;
     SurfaceCell together;
     for (const auto& [map, block] : layers) {
-      if (const SurfaceCell* surface = block->surface(index)) together.merge(*surface);
+      if (block->hasSurface(index)) together.merge(*block->surface(index));
     }
     if (together.returns == 0) continue;
     const CellKey cell = cellAt(key, index);

@@ -12,7 +12,7 @@ constexpr double kBinsAcross = 160.0;
 constexpr double kMostBins = 32.0;   // that an obstacle reaches from its middle
 constexpr double kStretch = 1.2;     // distortion may spread a disc by this much
 constexpr double kFisheye = 1.6;     // theta / sin(theta) up to a right angle
-constexpr float kEdgeOn = 0.05F;     // sine of the angle under which a disc hides nothing
+constexpr float kTilt = 0.08F;       // radians that the normal of a disc may be off
 constexpr double kFarOutside = 1e6;  // px; keeps conversions to int defined
 
 }  // namespace
@@ -97,6 +97,7 @@ void SceneView::sortIntoBins() {
   for (std::uint32_t i = 0; i < reaches_.size(); ++i) {
     forEachBin(reaches_[i], [&](std::size_t bin) { bin_obstacles_[next[bin]++] = i; });
   }
+  reaches_ = {};
 }
 
 bool SceneView::hides(const Sight& sight) const {
@@ -127,7 +128,7 @@ bool SceneView::passesSurface(const Sight& sight) const {
     }
     const float above = obstacle.normal.dot(point - obstacle.place);
     const float sine = obstacle.normal.dot(d);
-    if (std::abs(above) < off_plane || std::abs(sine) < kEdgeOn) continue;
+    if (std::abs(above) < off_plane + kTilt * ahead || std::abs(sine) < kTilt) continue;
     const float back = above / sine;  // metres from the point to the plane
     if (back < margin || back > distance) continue;
     if ((point - back * d - obstacle.place).norm() < disc) return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -78,6 +79,9 @@ class ThermalMap {
   /// All blocks in ascending order of their keys (x first), so that two runs write identical files.
   [[nodiscard]] std::vector<BlockKey> sortedBlockKeys() const;
 
+  [[nodiscard]] std::vector<TileKey> sortedTileKeys() const { return tiles_.sortedKeys(); }
+  /// A tile, also one in the store, where it stays. Null where nothing is known; valid until the map changes.
+  [[nodiscard]] std::shared_ptr<const MapTile> tile(const TileKey& key) const { return tiles_.look(key); }
   /// Calls visit(key, tile) for every tile in ascending order of the keys.
   template <typename Visitor>
   void forEachTile(Visitor&& visit) const {

@@ -42,6 +42,13 @@ MapTile& TileTable::findOrNew(const TileKey& key) {
   return *entry.tile;
 }
 
+std::shared_ptr<const MapTile> TileTable::look(const TileKey& key) const {
+  if (const auto found = tiles_.find(key); found != tiles_.end())
+    return {std::shared_ptr<const MapTile>(), found->second.tile.get()};  // which the table owns
+  if (store_ == nullptr || !store_->holds(key)) return nullptr;
+  return read(key);
+}
+
 TileTable::Entry* TileTable::recall(const TileKey& key) const {
   if (store_ == nullptr || !store_->holds(key)) return nullptr;
   Entry entry{tileOf(store_->take(key).value()), 0, 0};

@@ -24,6 +24,9 @@ class TileTable {
   /// Valid until trim().
   [[nodiscard]] MapTile* find(const TileKey& key) const;
   [[nodiscard]] MapTile& findOrNew(const TileKey& key);
+  /// To look at for a while: what is in the store is read and stays there. Null where nothing is known; valid
+  /// until the table changes.
+  [[nodiscard]] std::shared_ptr<const MapTile> look(const TileKey& key) const;
 
   /// To be called when tiles have grown, where there is a limit: counts their memory anew.
   void recount(std::span<const TileKey> grown);

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""How far a points record lies from the truth of its simulated mission, as rows of a Markdown table.
+"""How far a points record, or a map's cells exported as CSV, lies from the truth of its simulated mission, as
+rows of a Markdown table.
 
     tests/accuracy.py LABEL POINTS.csv TRUTH.json [LABEL POINTS.csv TRUTH.json ...]
 
@@ -61,10 +62,10 @@ def errors_of(points_path, hall):
     """(distance, temperature error, sigma) of every coloured point."""
     with open(points_path, newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
-            if not row["temperature"]:
+            if row["temperature"] in ("", "nan"):
                 continue
             distance, celsius = hall.nearest([float(row[axis]) for axis in "xyz"])
-            yield distance, float(row["temperature"]) - celsius, float(row["sigma"])
+            yield distance, float(row["temperature"]) - celsius, float(row.get("sigma") or row["temperature_sigma"])
 
 
 def rms(values):
@@ -95,8 +96,8 @@ def row_of(label, errors):
 def main(arguments):
     if not arguments or len(arguments) % 3 != 0:
         raise SystemExit(__doc__)
-    print("| laser | coloured points | temperature: mean error / rms "
-          f"| points with sigma < {SURE} °C | of these: mean error / rms "
+    print("| laser | coloured | temperature: mean error / rms "
+          f"| with sigma < {SURE} °C | of these: mean error / rms "
           "| errors within 2 sigma | median of error / sigma | position: rms to the surface |")
     print("| --- " + "| ---: " * 7 + "|")
     for label, points, truth in zip(arguments[::3], arguments[1::3], arguments[2::3]):

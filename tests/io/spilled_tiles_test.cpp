@@ -7,6 +7,7 @@
 
 #include <csignal>
 
+#include "io/station.hpp"
 #include "io/station_tiles.hpp"
 #include "projection/error.hpp"
 #include "tests/support/recordings.hpp"
@@ -21,7 +22,7 @@ using test::TestFolder;
 /// Puts all tiles of the map into the store.
 void spill(const ThermalMap& map, TileStore& store) {
   MapTiles tiles(map);
-  while (const auto key = tiles.key()) store.put(*key, tiles.next().blocks);
+  while (const auto key = tiles.key()) store.put(*key, viewsOf(*key, *tiles.next().tile));
 }
 
 ThermalMap unspilled(TileStore& store, const ThermalMap::Options& options) {
@@ -42,6 +43,27 @@ TEST(SpilledTiles, GiveBackWhatWasPut) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));  // its file has no name
   EXPECT_TRUE(test::sameMap(unspilled(store, map.options()), map));
   EXPECT_TRUE(store.sortedTiles().empty());
+}
+
+TEST(SpilledTiles, AreSavedFromWhereTheyAre) {
+  const TestFolder folder;
+  const ThermalMap whole = randomMission(1);
+  ThermalMap spilled(whole.options());
+  SpilledTiles store(folder.path());
+  spilled.spillTo(store, 1);
+  for (const BlockKey& key : whole.sortedBlockKeys()) spilled.setBlock(key, *whole.block(key));
+  const std::vector<TileKey> before = store.sortedTiles();
+  ASSERT_GE(before.size(), 7U);
+  Station::create(folder / "whole.tvx", whole.options()).addMission({}, whole, KnownMission::refuse);
+  Station::create(folder / "spilled.tvx", whole.options()).addMission({}, spilled, KnownMission::refuse);
+  EXPECT_EQ(test::bytesOf(folder / "spilled.tvx"), test::bytesOf(folder / "whole.tvx"));
+  EXPECT_EQ(store.sortedTiles(), before);  // none came back into memory
+  ThermalMap again(whole.options());
+  SpilledTiles another(folder.path());
+  again.spillTo(another, 1);
+  Station::open(folder / "whole.tvx").loadInto(again);
+  EXPECT_GE(another.sortedTiles().size(), 7U);
+  EXPECT_TRUE(test::sameMap(again, whole));
 }
 
 TEST(SpilledTiles, ForgetWhatIsTakenAndKeepWhatIsRead) {

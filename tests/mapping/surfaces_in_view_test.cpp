@@ -42,7 +42,7 @@ ThermalMap mapOfPlate(double scale) {
 float hiddenBeyond(const ThermalMap& map, const Eigen::Vector2d& pixel, const Pose& T_camera_world = {}) {
   const Camera camera = wideCamera();
   DepthSectors depths(camera, T_camera_world, {});
-  addSurfacesInView(map, T_camera_world, depths);
+  addSurfacesInView(map, ViewCone(camera, T_camera_world, 100.0), depths);
   depths.finish();
   return depths.hiddenBeyond(pixel);
 }

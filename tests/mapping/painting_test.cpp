@@ -1,0 +1,100 @@
+#include "mapping/painting.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/mapping/synthetic_scene.hpp"
+#include "tests/projection/scene.hpp"
+
+namespace thermovox::test {
+namespace {
+
+ThermalCamera thermalCamera() {
+  return {.camera = sceneCamera(), .T_body_camera = {}, .netd = 0.05, .blur_px = 0.7};
+}
+
+/// Paints one frame, taken from the origin, of all that `scene_maps` hold onto `map`.
+template <typename Celsius>
+void paintOnce(const std::vector<const ThermalMap*>& scene_maps, const Celsius& celsius, ThermalMap& map) {
+  const ThermalCamera camera = thermalCamera();
+  const ThermalView view(frameOf(imageOf(160, 120, celsius), Time(std::chrono::seconds(7))), Pose{}, camera);
+  SceneSurfaces scene(scene_maps);
+  const SceneView scene_view(camera.camera, Pose{}, scene, paintRange(camera, map.resolution()), {});
+  paint(view, camera, scene_view, 0.01, map);
+}
+
+TEST(Painting, ColoursEverySurfaceThatTheFrameSeesOnce) {
+  ThermalMap map = mapOf({kPlate, kWallBehind});
+  paintOnce(
+      {&map}, [](int, int) { return 55.0; }, map);
+  std::size_t painted = 0;
+  forEachSurface(map, [&](const CellKey& key, const SurfaceCell& cell) {
+    const Eigen::Vector3d p = map.centerOf(key);
+    const bool behind = p.z() > 3.0 && (p.head<2>() * (2.0 / p.z())).cwiseAbs().maxCoeff() < 0.4;
+    const auto pixel = sceneCamera().project(p);
+    const bool inside = pixel && pixel->x() > 3 && pixel->y() > 3 && pixel->x() < 156 && pixel->y() < 116;
+    if (behind) {
+      EXPECT_EQ(cell.observations, 0U) << p.transpose();
+    }
+    if (inside && p.z() < 3.0) {
+      EXPECT_EQ(cell.observations, 1U) << p.transpose();
+    }
+    if (cell.observations == 0) return;
+    ++painted;
+    EXPECT_NEAR(cell.mean(), 55.0, 0.01);
+    EXPECT_NEAR(cell.sigmaOfMean(), 0.05, 0.03);
+    EXPECT_NEAR(toSeconds(cell.last() - Time(std::chrono::seconds(7))), 0.0, 1e-4);
+  });
+  EXPECT_GT(painted, 15000U);
+}
+
+TEST(Painting, KnowsTheIncidenceOnAWall) {
+  ThermalMap map = mapOf({kWallBehind});
+  paintOnce(
+      {&map}, [](int, int) { return 20.0; }, map);
+  const Eigen::Vector3d aside(2.0, 1.0, 5.02);
+  const SurfaceCell* cell = map.surface(map.keyOf(aside));
+  ASSERT_TRUE(cell != nullptr && cell->observations == 1);
+  EXPECT_NEAR(cell->bestView().incidence, std::atan2(std::hypot(2.0, 1.0), 5.02), 0.2);
+  EXPECT_NEAR(cell->bestView().range, aside.norm(), 0.06);
+}
+
+TEST(Painting, ACellOnAnEdgeOfTemperaturesDistrustsItself) {
+  ThermalMap map = mapOf({kWallBehind});
+  paintOnce(
+      {&map}, [](int u, int) { return u < 80 ? 20.0 : 60.0; }, map);
+  const SurfaceCell* edge = map.surface(map.keyOf({0.0, 0.3, 5.02}));
+  const SurfaceCell* away = map.surface(map.keyOf({1.5, 0.3, 5.02}));
+  ASSERT_TRUE(edge != nullptr && away != nullptr);
+  EXPECT_GT(edge->sigmaOfMean(), 5.0);
+  EXPECT_LT(away->sigmaOfMean(), 0.1);
+}
+
+TEST(Painting, SurfacesOfAnotherMapAreColouredWithoutBecomingThisMapsGeometry) {
+  const ThermalMap known = mapOf({kWallBehind});
+  ThermalMap own = mapOf({kPlate});
+  const std::size_t before = own.surfaceCount();
+  paintOnce(
+      {&known, &own}, [](int, int) { return 33.0; }, own);
+  EXPECT_GT(own.surfaceCount(), before + 10000);
+  const CellKey aside = own.keyOf({1.5, 1.0, 5.02});
+  ASSERT_NE(own.surface(aside), nullptr);
+  EXPECT_EQ(own.surface(aside)->returns, 0U);
+  EXPECT_TRUE(own.surface(aside)->isPlausible());
+  EXPECT_EQ(own.occupancy(aside), Occupancy::unknown);
+  ThermalMap together({.resolution = 0.05, .occupancy = {}});
+  together.merge(own);
+  together.merge(known);
+  EXPECT_EQ(together.surface(aside)->meanOffset(), known.surface(aside)->meanOffset());
+  EXPECT_NEAR(together.surface(aside)->mean(), 33.0, 0.01);
+}
+
+TEST(Painting, EndsWhereAPixelIsWiderThanFourCells) {
+  EXPECT_DOUBLE_EQ(paintRange(thermalCamera(), 0.05), 20.0);
+  ThermalMap map = mapOf({{{-1, -1, 21.02}, {2, 0, 0}, {0, 2, 0}}});
+  paintOnce(
+      {&map}, [](int, int) { return 20.0; }, map);
+  forEachSurface(map, [](const CellKey&, const SurfaceCell& cell) { EXPECT_EQ(cell.observations, 0U); });
+}
+
+}  // namespace
+}  // namespace thermovox::test
