@@ -16,7 +16,12 @@
 namespace thermovox {
 namespace {
 
-const std::map<std::string, Carving> kCarvings{{"octomap", Carving::octomap}, {"none", Carving::none}};
+const std::map<std::string, Carving> kCarvings{
+    {"careful", Carving::careful}, {"octomap", Carving::octomap}, {"none", Carving::none}};
+
+constexpr std::uint64_t kMegabyte = 1'000'000;
+constexpr std::uint64_t kMostMegabytes = 1'000'000'000;
+constexpr int kMostThreads = 1024;
 
 constexpr double kLongestGap = 1e7;  // seconds
 
@@ -49,6 +54,10 @@ void checkUsage(const MapJob& job) {
     throw UsageError("--max-gap: found " + std::to_string(job.max_gap) +
                      " s, expected more than 0 and at most " + std::to_string(kLongestGap) + " s");
   }
+  if (job.threads < 0 || job.threads > kMostThreads) {
+    throw UsageError("--threads: found " + std::to_string(job.threads) + ", expected 1 to " +
+                     std::to_string(kMostThreads) + " (or 0 for all processors)");
+  }
   if (!job.points.empty()) checkEnding(job.points, {".csv", ".ply"});
   for (const std::filesystem::path& file : job.geometry) checkEnding(file, {".pcd", ".ply"});
   try {
@@ -56,6 +65,14 @@ void checkUsage(const MapJob& job) {
   } catch (const ConfigError& error) {
     throw UsageError(std::string("--resolution: ") + error.what());
   }
+}
+
+void setMemory(MapJob& job, std::uint64_t megabytes) {
+  if (megabytes < 1 || megabytes > kMostMegabytes) {
+    throw UsageError("--memory: found " + std::to_string(megabytes) + " MB, expected 1 to " +
+                     std::to_string(kMostMegabytes) + " MB");
+  }
+  job.memory_bytes = megabytes * kMegabyte;
 }
 
 void runMap(MapArgs& args) {
@@ -93,12 +110,21 @@ void addMap(CLI::App& app) {
       "--all-points", [args] { args->job.recorded = RecordedPoints::all; },
       "Record the points without temperature too, with empty fields");
   addChoice(*verb, "--carve", args->job.mapper.carving, kCarvings,
-            "Which cells a ray frees: octomap (all before its return) or none (default octomap)");
+            "Which cells a ray frees: octomap (all before its return, as OctoMap does), careful (of these no "
+            "cell that a return of the mission hit, and none beside a hit of the same sweep), or none "
+            "(default octomap)");
   verb->add_option("--max-gap", args->job.max_gap, "Longest time without poses that is interpolated [s]")
       ->capture_default_str();
   verb->add_flag_callback(
       "--again", [args] { args->job.known = KnownMission::add_again; },
       "Integrate a mission although the station has one of that name");
+  verb->add_option("--threads", args->job.threads,
+                   "Threads to work with; the result is the same for any number (default: all processors)");
+  verb->add_option_function<std::uint64_t>(
+          "--memory", [args](std::uint64_t megabytes) { setMemory(args->job, megabytes); },
+          "Memory that the maps may take [MB]; tiles beyond it wait in a file beside the station, which is "
+          "slower (default: half of the machine's)")
+      ->type_name("MB");
   verb->add_flag("--two-pass", args->job.two_pass,
                  "Read each mission twice: geometry first, then colours, tested against all of it");
   verb->add_flag(

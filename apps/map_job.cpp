@@ -1,6 +1,7 @@
 #include "apps/map_job.hpp"
 
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <deque>
@@ -8,12 +9,14 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "apps/imported_cloud.hpp"
 #include "apps/progress.hpp"
 #include "io/mission_folder.hpp"
 #include "io/rig_file.hpp"
+#include "io/spilled_tiles.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -116,10 +119,11 @@ MissionReport mapOne(OpenedMission& opened, const MapJob& job, std::vector<const
 }
 
 /// How to wait for another process that writes the station.
-StationAccess accessOf(const fs::path& station) {
-  return {.patience = {.begins = [station] {
-            spdlog::info("{}: waits for another process that is writing it", station.string());
-          }}};
+StationAccess accessOf(const MapJob& job) {
+  return {.threads = job.threads, .patience = {.begins = [station = job.station] {
+                                    spdlog::info("{}: waits for another process that is writing it",
+                                                 station.string());
+                                  }}};
 }
 
 /// The station to continue; none when it is to be made. One that could not be written is refused before hours
@@ -131,7 +135,7 @@ std::optional<Station> existingStation(const MapJob& job) {
     return std::nullopt;
   }
   Station::checkWritable(job.station);
-  Station station = Station::open(job.station, accessOf(job.station));
+  Station station = Station::open(job.station, accessOf(job));
   if (job.resolution && *job.resolution != station.options().resolution) {
     throw ConfigError(job.station.string() + ": has cells of " +
                       std::to_string(station.options().resolution) + " m, --resolution asks for " +
@@ -142,7 +146,7 @@ std::optional<Station> existingStation(const MapJob& job) {
 
 /// What the map needs to be made again from its missions.
 std::string parametersOf(const MapJob& job) {
-  nlohmann::ordered_json json{{"carve", job.mapper.carving == Carving::octomap ? "octomap" : "none"},
+  nlohmann::ordered_json json{{"carve", nameOf(job.mapper.carving)},
                               {"max_gap", job.max_gap},
                               {"two_pass", job.two_pass || job.paint},
                               {"paint", job.paint}};
@@ -181,12 +185,39 @@ std::unique_ptr<PointsRecord> openRecord(const MapJob& job) {
   return std::make_unique<PointsRecord>(job.points, job.recorded, job.existing_points);
 }
 
+int threadsOf(const MapJob& job) {
+  return job.threads > 0 ? job.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::uint64_t memoryOf(const MapJob& job) {
+  if (job.memory_bytes > 0) return job.memory_bytes;
+  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE)) / 2;
+}
+
+/// A map with the file that takes what does not fit memory.
+struct SpillingMap {
+  SpilledTiles store;
+  ThermalMap map;
+
+  SpillingMap(const MapJob& job, const ThermalMap::Options& options)
+      : store(job.station.has_parent_path() ? job.station.parent_path() : fs::path(".")), map(options) {
+    map.setThreads(threadsOf(job));
+    limitTo(memoryOf(job));
+  }
+  void limitTo(std::uint64_t bytes) { map.spillTo(store, static_cast<std::size_t>(bytes)); }
+};
+
 /// The maps of one run, in the order in which they were made, with what the station is to remember of them.
+/// The one at work may take the memory but for what is set aside for the finished ones.
 class Additions {
  public:
   Additions(const MapJob& job, const ThermalMap::Options& options) : job_(job), options_(options) {}
 
-  ThermalMap& newMap() { return maps_.emplace_back(options_); }
+  ThermalMap& newMap() {
+    for (SpillingMap& finished : maps_) finished.limitTo(memoryOf(job_) / (2 * maps_.size() + 2));
+    return maps_.emplace_back(job_, options_).map;
+  }
   void add(MissionRecord record, const ThermalMap& map) {
     record.version = THERMOVOX_VERSION;
     record.mapped_at = job_.mapped_at;
@@ -202,7 +233,7 @@ class Additions {
  private:
   const MapJob& job_;
   ThermalMap::Options options_;
-  std::deque<ThermalMap> maps_;  // whose places stay where they are
+  std::deque<SpillingMap> maps_;  // whose places stay where they are
   std::vector<Station::Addition> additions_;
 };
 
@@ -244,13 +275,16 @@ MapResult run(MapJob& job) {
   checkNew(missions, station, job);
   const std::unique_ptr<PointsRecord> points = openRecord(job);
   const ThermalMap::Options options = station ? station->options() : newStationOptions(job);
-  std::optional<ThermalMap> before;
-  if (job.paint && station) before.emplace(station->loadMap());
+  std::optional<SpillingMap> before;
+  if (job.paint && station) {
+    before.emplace(job, options);
+    station->loadInto(before->map);
+  }
   Additions additions(job, options);
   MapResult result;
-  result.missions = mapMissions(missions, job, before ? &*before : nullptr, additions, points.get());
+  result.missions = mapMissions(missions, job, before ? &before->map : nullptr, additions, points.get());
   if (points) points->finish();
-  if (!station) station.emplace(Station::create(job.station, options, accessOf(job.station)));
+  if (!station) station.emplace(Station::create(job.station, options, accessOf(job)));
   station->addMissions(additions.all(), job.known);
   if (points) points->commit();
   result.voxels = static_cast<std::size_t>(station->counts().surfaces);

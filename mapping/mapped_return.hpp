@@ -27,4 +27,9 @@ enum class Carving {
   careful,
 };
 
+/// The word that names it on the command line and in a station.
+[[nodiscard]] constexpr const char* nameOf(Carving carving) {
+  return carving == Carving::none ? "none" : (carving == Carving::octomap ? "octomap" : "careful");
+}
+
 }  // namespace thermovox
