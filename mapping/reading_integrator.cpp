@@ -24,13 +24,14 @@ Eigen::Vector3d offsetInCell(const Eigen::Vector3d& p_world, const CellKey& key,
   return p_world * inverse_resolution - Eigen::Vector3d(key.x, key.y, key.z);
 }
 
-/// Moves the bits of a block into `to`.
+/// Moves the bits of a block into `to`. Where there are none nothing is written, so that pages which were
+/// never marked stay the system's.
 void take(ReadingMarks::Tile::Bits& tile, int block, CellBits& to) {
   std::uint64_t* from = tile.data() + static_cast<std::size_t>(block) * to.size();
-  for (std::size_t word = 0; word < to.size(); ++word) {
-    to[word] |= from[word];
-    from[word] = 0;
-  }
+  std::uint64_t all = 0;
+  for (std::size_t word = 0; word < to.size(); ++word) all |= from[word];
+  if (all == 0) return;
+  for (std::size_t word = 0; word < to.size(); ++word) to[word] |= std::exchange(from[word], 0);
 }
 
 void removeBits(CellBits& bits, const CellBits& a, const CellBits& b) {

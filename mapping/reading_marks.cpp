@@ -1,5 +1,8 @@
 #include "mapping/reading_marks.hpp"
 
+#include <new>
+#include <type_traits>
+
 namespace thermovox {
 namespace {
 
@@ -9,10 +12,18 @@ void setBit(ReadingMarks::Tile::Bits& bits, std::uint32_t cell) {
 
 }  // namespace
 
+/// From calloc: what is never marked takes no memory, for the system's zeroed pages stay shared.
+ReadingMarks::TilePointer ReadingMarks::newTile() {
+  static_assert(std::is_trivially_copyable_v<Tile>);
+  auto* tile = static_cast<Tile*>(std::calloc(1, sizeof(Tile)));
+  if (tile == nullptr) throw std::bad_alloc();
+  return TilePointer(tile);
+}
+
 ReadingMarks::Tile& ReadingMarks::lookUp(const TileKey& key) {
   Tile*& tile = table_[key];
   if (tile == nullptr) {
-    if (used_.size() == pool_.size()) pool_.push_back(std::make_unique<Tile>());
+    if (used_.size() == pool_.size()) pool_.push_back(newTile());
     tile = pool_[used_.size()].get();
     tile->key = key;
     used_.push_back(tile);

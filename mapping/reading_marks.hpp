@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -48,6 +49,11 @@ class ReadingMarks {
     Tile* tile = nullptr;
   };
   static constexpr std::size_t kSlots = 4096;
+  struct Freer {
+    void operator()(Tile* tile) const { std::free(tile); }
+  };
+  using TilePointer = std::unique_ptr<Tile, Freer>;
+  [[nodiscard]] static TilePointer newTile();
 
   [[nodiscard]] static std::size_t slotOf(const TileKey& key) {
     return static_cast<std::size_t>((key.x & 15) | (key.y & 15) << 4 | (key.z & 15) << 8);
@@ -62,7 +68,7 @@ class ReadingMarks {
   std::vector<Slot> slots_{kSlots};  ///< the tile looked up last of those that share a slot
   std::unordered_map<TileKey, Tile*, TileKeyHash> table_;
   std::vector<Tile*> used_;
-  std::vector<std::unique_ptr<Tile>> pool_;  ///< those in use first
+  std::vector<TilePointer> pool_;  ///< those in use first
   RayCrossings::Codes codes_;
 };
 

@@ -70,10 +70,10 @@ TEST(Program, WrongUsageEndsWithTwoAndIsToldOnStderr) {
 TEST(Program, HelpAndErrorsShowTheWordsOfAChoice) {
   const TestFolder folder;
   const std::string help = thermovox(folder.path(), "map --help").out;
-  EXPECT_THAT(help, HasSubstr("none|octomap"));
+  EXPECT_THAT(help, HasSubstr("careful|none|octomap"));
   EXPECT_THAT(help, testing::Not(HasSubstr("{")));
   EXPECT_EQ(thermovox(folder.path(), "map hall --carve bravely").err,
-            "thermovox: --carve: found 'bravely', expected none|octomap\n");
+            "thermovox: --carve: found 'bravely', expected careful|none|octomap\n");
   EXPECT_EQ(thermovox(folder.path(), "export s.tvx map.stl").err,
             "thermovox: map.stl: the ending is '.stl', expected .ply, .pcd, .csv, .bt, .ot or .png\n");
 }

@@ -29,7 +29,7 @@ class Engine {
 using EnginePointer = std::unique_ptr<Engine>;
 
 /// The thermal map with its temperature statistics.
-[[nodiscard]] EnginePointer thermalMapEngine(double resolution, Carving carving);
+[[nodiscard]] EnginePointer thermalMapEngine(double resolution, Carving carving, int threads = 1);
 /// insertPointCloud of an octomap::OcTree.
 [[nodiscard]] EnginePointer octomapRays(double resolution);
 /// updateNode(lazy_eval) of an octomap::OcTree for every point.

@@ -71,10 +71,12 @@ void insert(benchmark::State& state, const Row& row) {
 
 /// The thermal map in every way of carving that frees cells.
 std::vector<Row> ourRows(const std::string& workload, Workload (*make_workload)()) {
-  const auto with = [](Carving carving) {
-    return [carving](double resolution) { return thermalMapEngine(resolution, carving); };
+  const auto with = [](Carving carving, int threads) {
+    return [carving, threads](double resolution) { return thermalMapEngine(resolution, carving, threads); };
   };
-  return {{workload, "thermovox", make_workload, with(Carving::octomap), 3}};
+  return {{workload, "thermovox", make_workload, with(Carving::octomap, 1), 3},
+          {workload, "thermovox_2_threads", make_workload, with(Carving::octomap, 2), 3},
+          {workload, "thermovox_careful", make_workload, with(Carving::careful, 1), 3}};
 }
 
 struct NamedWorkload {

@@ -5,8 +5,10 @@ namespace {
 
 class ThermalMapEngine : public Engine {
  public:
-  ThermalMapEngine(double resolution, Carving carving)
-      : map_({.resolution = resolution}), carving_(carving) {}
+  ThermalMapEngine(double resolution, Carving carving, int threads)
+      : map_({.resolution = resolution}), carving_(carving) {
+    map_.setThreads(threads);
+  }
 
   void insert(std::span<const MappedReturn> scan) override { map_.integrate(scan, carving_); }
 
@@ -16,10 +18,9 @@ class ThermalMapEngine : public Engine {
       cells.known = cells.surface;
       return cells;
     }
-    for (const BlockKey& key : map_.sortedBlockKeys()) {
-      for (int i = 0; i < kBlockCells; ++i)
-        cells.known += map_.occupancy(cellAt(key, i)) == Occupancy::unknown ? 0.0 : 1.0;
-    }
+    map_.forEachBlock([&cells](const BlockKey&, const Block& block) {
+      cells.known += static_cast<double>(block.log_odds.knownCells());
+    });
     return cells;
   }
 
@@ -30,8 +31,8 @@ class ThermalMapEngine : public Engine {
 
 }  // namespace
 
-EnginePointer thermalMapEngine(double resolution, Carving carving) {
-  return std::make_unique<ThermalMapEngine>(resolution, carving);
+EnginePointer thermalMapEngine(double resolution, Carving carving, int threads) {
+  return std::make_unique<ThermalMapEngine>(resolution, carving, threads);
 }
 
 }  // namespace thermovox::bench
