@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <tuple>
 #include <utility>
 
 #include "mapping/parallel.hpp"
@@ -74,7 +75,9 @@ void ReadingIntegrator::integrate(std::span<const MappedReturn> reading, Carving
   runInParallel(workers, [&](int worker) { addReturns(reading, worker, workers); });
   for (ReadingMarks& marks : marks_) marks.clear();
   std::vector<TileKey> keys;
-  for (const SweptTile& swept : swept_) keys.push_back(swept.key);
+  for (const SweptTile& swept : swept_) {
+    if (swept.entered) keys.push_back(swept.key);
+  }
   tiles.recount(keys);
 }
 
@@ -100,14 +103,16 @@ void ReadingIntegrator::collectTiles(TileTable& tiles, int workers) {
   swept_.clear();
   for (int worker = 0; worker < workers; ++worker) {
     for (const ReadingMarks::Tile* tile : marks_[static_cast<std::size_t>(worker)].tiles()) {
-      swept_.push_back({tile->key});
+      swept_.push_back({tile->key, tile->entered});
     }
   }
-  const auto byKey = [](const SweptTile& a, const SweptTile& b) { return a.key < b.key; };
+  const auto byKey = [](const SweptTile& a, const SweptTile& b) {  // of one tile what was entered comes first
+    return std::tie(a.key, b.entered) < std::tie(b.key, a.entered);
+  };
   std::sort(swept_.begin(), swept_.end(), byKey);
   const auto sameKey = [](const SweptTile& a, const SweptTile& b) { return a.key == b.key; };
   swept_.erase(std::unique(swept_.begin(), swept_.end(), sameKey), swept_.end());
-  for (SweptTile& swept : swept_) swept.tile = &tiles.findOrNew(swept.key);
+  for (SweptTile& swept : swept_) swept.tile = swept.entered ? &tiles.findOrNew(swept.key) : nullptr;
 }
 
 void ReadingIntegrator::sweep(Carving carving, int workers) {
@@ -121,6 +126,10 @@ void ReadingIntegrator::sweepTile(const SweptTile& swept, Carving carving) {
   std::vector<ReadingMarks::Tile*> marked;
   for (const ReadingMarks& marks : marks_) {
     if (ReadingMarks::Tile* tile = marks.find(swept.key)) marked.push_back(tile);
+  }
+  if (swept.tile == nullptr) {
+    for (ReadingMarks::Tile* tile : marked) tile->beside.fill(0);
+    return;
   }
   for (std::size_t word = 0; word < kTileBlocks / 64; ++word) {
     // Where no ray was followed, only blocks with a hit have marks.

@@ -32,7 +32,8 @@ class ReadingIntegrator {
   };
   struct SweptTile {
     TileKey key;
-    MapTile* tile = nullptr;
+    bool entered = false;
+    MapTile* tile = nullptr;  ///< none where the reading did not enter it
   };
   void mark(std::span<const MappedReturn> reading, Carving carving, int worker, int workers);
   void collectTiles(TileTable& tiles, int workers);

@@ -38,7 +38,7 @@ ReadingMarks::Tile* ReadingMarks::find(const TileKey& key) const {
 }
 
 void ReadingMarks::markHit(const CellKey& key) {
-  Tile& tile = tileOrNew(tileOf(blockOf(key)));
+  Tile& tile = enter(tileOf(blockOf(key)));
   const std::uint32_t cell = cellInTile(key);
   setBit(tile.hit, cell);
   tile.hit_blocks[cell >> 15] |= std::uint64_t{1} << ((cell >> 9) & 63);
@@ -71,20 +71,22 @@ void ReadingMarks::markPassed(const RayCells& ray) {
   const RayCrossings crossings(ray);
   if (crossings.isTooLong()) return walk(ray);
   const TileKey first_tile = tileOf(blockOf(ray.first()));
-  setBit(tileOrNew(first_tile).passed, cellInTile(ray.first()));
+  setBit(enter(first_tile).passed, cellInTile(ray.first()));
   crossings.forEachChunk(codes_, [&](const RayCrossings::Codes& codes, int count) {
     markChunk(codes, count,
-              [&](std::uint32_t code) { return tileOrNew(tileOfCode(code, first_tile)).passed.data(); });
+              [&](std::uint32_t code) { return enter(tileOfCode(code, first_tile)).passed.data(); });
   });
 }
 
 void ReadingMarks::walk(const RayCells& ray) {
-  ray.forEach(
-      [this](const CellKey& key) { setBit(tileOrNew(tileOf(blockOf(key))).passed, cellInTile(key)); });
+  ray.forEach([this](const CellKey& key) { setBit(enter(tileOf(blockOf(key))).passed, cellInTile(key)); });
 }
 
 void ReadingMarks::clear() {
-  for (const Tile* tile : used_) slots_[slotOf(tile->key)].tile = nullptr;
+  for (Tile* tile : used_) {
+    slots_[slotOf(tile->key)].tile = nullptr;
+    tile->entered = false;
+  }
   used_.clear();
   table_.clear();
 }

@@ -21,10 +21,11 @@ class ReadingMarks {
     /// The CellBits of its blocks, one after the other.
     using Bits = std::array<std::uint64_t, kTileBlocks * std::tuple_size_v<CellBits>>;
     TileKey key;
-    Bits passed{};  ///< by a ray; where `hit` is set too, the hit counts
-    Bits hit{};
-    Bits beside{};                                             ///< next to a hit; only where asked for
-    std::array<std::uint64_t, kTileBlocks / 64> hit_blocks{};  ///< those with a hit
+    bool entered;                                            ///< hit or passed, and not only beside a hit
+    std::array<std::uint64_t, kTileBlocks / 64> hit_blocks;  ///< those with a hit
+    Bits passed;  ///< by a ray; where `hit` is set too, the hit counts
+    Bits hit;
+    Bits beside;  ///< next to a hit; only where asked for
   };
 
   void markHit(const CellKey& key);
@@ -61,6 +62,12 @@ class ReadingMarks {
   [[nodiscard]] Tile& tileOrNew(const TileKey& key) {
     const Slot& slot = slots_[slotOf(key)];
     return slot.tile != nullptr && slot.key == key ? *slot.tile : lookUp(key);
+  }
+  /// The tile, which is entered.
+  [[nodiscard]] Tile& enter(const TileKey& key) {
+    Tile& tile = tileOrNew(key);
+    tile.entered = true;
+    return tile;
   }
   Tile& lookUp(const TileKey& key);
   void walk(const RayCells& ray);

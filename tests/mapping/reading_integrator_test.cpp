@@ -71,6 +71,17 @@ TEST(CarefulCarving, KeepsEverySurfaceThatOctomapsRuleErases) {
   EXPECT_LT(occupiedSurfaces(octomap), octomap.surfaceCount());
 }
 
+TEST(CarefulCarving, MakesNoTilesOfWhatIsOnlyBesideAHit) {
+  ThermalMap map({.resolution = 0.1});
+  const std::vector<MappedReturn> corner{{{0.05, 0.05, 0.05}, {1.05, 1.05, 1.05}, Time(), {}}};
+  for (int i = 0; i < 2; ++i) map.integrate(corner, Carving::careful);
+  EXPECT_EQ(map.sortedTileKeys(), std::vector<TileKey>{TileKey{}});
+  // The marks beside it are gone, too: a ray through that tile frees all its cells.
+  const Eigen::Vector3d origin(-0.05, 1.05, 0.05), end(-0.05, -1.05, 0.05);
+  map.integrate({{MappedReturn{end, origin, Time(), {}}}}, Carving::careful);
+  EXPECT_EQ(map.occupancy(map.keyOf({-0.05, 0.05, 0.05})), Occupancy::free);
+}
+
 TEST(CarefulCarving, FreesTheSpaceThatRaysPass) {
   ThermalMap map({.resolution = 0.1});
   const Eigen::Vector3d origin(0.05, 0.05, 0.05);
