@@ -36,7 +36,7 @@ fi
 work=build/benchmark
 mkdir -p "${work}"
 load_before=$(cut -d ' ' -f 1 /proc/loadavg)
-"${build}/tests/benchmark/thermovox_benchmarks" --benchmark_filter='^(carving|surfaces)/' \
+"${build}/tests/benchmark/thermovox_benchmarks" --benchmark_filter='^(carving|surfaces|movedObject)/' \
   --benchmark_out="${work}/results.json" --benchmark_out_format=json > "${work}/results.txt"
 growth=$("${build}/tests/benchmark/thermovox_growth" "${work}/growth.csv" "${work}/growth.png")
 tests/benchmark/long_mission.py "${build}/apps/thermovox" "${work}" "${missions[@]}" > "${work}/missions.md"

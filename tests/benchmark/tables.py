@@ -85,6 +85,21 @@ def surfaces(results):
     ] for workload, engine, row in rows_of(results, "surfaces")))
 
 
+def moved_object(results):
+    rows = [row for row in results["benchmarks"] if row["name"].startswith("movedObject/")]
+    if not rows:
+        return
+    print("A box that is taken away in the middle of a mission (hall, 0.1 m, 80 scans): true surface cells that "
+          "are still occupied at its end, and false ones, at its end and after more missions:\n")
+    head = ["`--carve`", "of true cells kept", "false cells", "left in the mission", "after the next mission",
+            "after two"]
+    print_table(head, ([
+        row["name"].split("/")[1], f"{100 * row['true_cells_kept'] / row['true_cells']:.1f} %",
+        f"{row['false_cells']:.0f}", f"{row['false_cells_left']:.0f}",
+        f"{row['false_cells_left_after_the_next']:.0f}", f"{row['false_cells_left_after_two']:.0f}",
+    ] for row in rows))
+
+
 def main(arguments):
     if len(arguments) != 1:
         raise SystemExit(__doc__)
@@ -92,6 +107,7 @@ def main(arguments):
         results = json.load(file)
     carving(results)
     surfaces(results)
+    moved_object(results)
 
 
 if __name__ == "__main__":
