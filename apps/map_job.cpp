@@ -203,20 +203,23 @@ struct SpillingMap {
   SpillingMap(const MapJob& job, const ThermalMap::Options& options)
       : store(job.station.has_parent_path() ? job.station.parent_path() : fs::path(".")), map(options) {
     map.setThreads(threadsOf(job));
-    limitTo(memoryOf(job));
   }
   void limitTo(std::uint64_t bytes) { map.spillTo(store, static_cast<std::size_t>(bytes)); }
 };
 
 /// The maps of one run, in the order in which they were made, with what the station is to remember of them.
-/// The one at work may take the memory but for what is set aside for the finished ones.
 class Additions {
  public:
   Additions(const MapJob& job, const ThermalMap::Options& options) : job_(job), options_(options) {}
 
+  /// With --paint the station as it was has half of the memory; of the rest the map at work has half, once
+  /// there are finished ones.
   ThermalMap& newMap() {
-    for (SpillingMap& finished : maps_) finished.limitTo(memoryOf(job_) / (2 * maps_.size() + 2));
-    return maps_.emplace_back(job_, options_).map;
+    const std::uint64_t memory = memoryOf(job_) / (job_.paint ? 2 : 1);
+    for (SpillingMap& finished : maps_) finished.limitTo(memory / (2 * maps_.size()));
+    SpillingMap& map = maps_.emplace_back(job_, options_);
+    map.limitTo(maps_.size() > 1 ? memory / 2 : memory);
+    return map.map;
   }
   void add(MissionRecord record, const ThermalMap& map) {
     record.version = THERMOVOX_VERSION;
@@ -277,7 +280,7 @@ MapResult run(MapJob& job) {
   const ThermalMap::Options options = station ? station->options() : newStationOptions(job);
   std::optional<SpillingMap> before;
   if (job.paint && station) {
-    before.emplace(job, options);
+    before.emplace(job, options).limitTo(memoryOf(job) / 2);
     station->loadInto(before->map);
   }
   Additions additions(job, options);

@@ -147,7 +147,11 @@ void sortMissions(std::vector<MissionRecord>& missions) {
 StationWriter::StationWriter(fs::path path) : path_(std::move(path)), file_(path_) {
   checkFolderOf(path_);
   std::error_code ignored;
-  if (fs::is_symlink(path_, ignored) && fs::exists(path_, ignored)) file_ = fs::canonical(path_);
+  if (fs::is_symlink(path_, ignored)) {
+    if (!fs::exists(path_, ignored))
+      throw DataError(path_.string() + ": is a link to nothing, expected a station or a free name");
+    file_ = fs::canonical(path_);
+  }
   removeLeftovers(file_);
   unfinished_ = unfinishedName(file_);
   const int descriptor = ::open(unfinished_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);

@@ -28,8 +28,9 @@ constexpr std::uint8_t kLayout = 2;
 constexpr int kCompressionLevel = 1;
 constexpr std::size_t kPlane = kBlockCells * sizeof(std::int8_t);
 constexpr std::size_t kWidePlane = kBlockCells * sizeof(LogOdds);
+constexpr std::size_t kLargestSurface = 80 + 2;  // in layout 1, with its place
 constexpr std::size_t kMostBytes =
-    3 + kTileBlocks * (2 + 1 + kWidePlane + sizeof(CellBits) + kBlockCells * sizeof(SurfaceCell));
+    3 + kTileBlocks * (2 + 1 + kWidePlane + sizeof(CellBits) + kBlockCells * kLargestSurface);
 
 [[noreturn]] void refuse(const TileKey& key, const std::string& fault) {
   throw DataError("tile (" + std::to_string(key.x) + ", " + std::to_string(key.y) + ", " +

@@ -63,7 +63,8 @@ bool sampleLogOdds(const BlockKey& key, const ThermalMap& map, const Pose& T_map
 /// The same statistics, at another place within a cell (in edges).
 SurfaceCell placedAt(SurfaceCell cell, const Eigen::Vector3d& offset) {
   for (int i = 0; i < 3; ++i) {
-    const double step = std::clamp(std::floor(offset[i] * 256.0), 0.0, 255.0);
+    const double step =
+        std::clamp(std::floor(offset[i] * SurfaceCell::kOffsetSteps), 0.0, SurfaceCell::kOffsetSteps - 1.0);
     cell.offset_sum[static_cast<std::size_t>(i)] = cell.returns * static_cast<std::uint64_t>(step);
   }
   return cell;

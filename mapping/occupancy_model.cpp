@@ -64,7 +64,7 @@ OccupancyModel::OccupancyModel(const Options& options) {
   const double miss = -logOddsOf(options.prob_miss);
   const double lowest = logOddsOf(options.clamp_min);
   const double highest = logOddsOf(options.clamp_max);
-  const Steps steps = bestSteps(hit, miss, std::max({-lowest, highest, hit}));
+  const Steps steps = bestSteps(hit, miss, std::max({-lowest, highest, hit, miss}));
   if (steps.hit == 0) {
     throw ConfigError(
         "occupancy: prob_hit, prob_miss and the clamps are too far apart to share one step of "

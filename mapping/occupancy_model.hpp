@@ -15,10 +15,10 @@ inline constexpr LogOdds kUnknown = std::numeric_limits<LogOdds>::min();
 /// a ray that passes takes another away, and within a mission the sum is clamped.
 ///
 /// The quantum is chosen so that a hit is a whole number of quanta, a miss is one as nearly as possible, and
-/// the clamping range and the hit fit +-127. OctoMap's defaults give ln(0.7 / 0.3) / 23 = 0.0368: hit 23,
-/// miss 11.006, clamping at -54.3 and 95.3, both rounded. A cell's log-odds therefore differ from OctoMap's
-/// by at most half a quantum since it was last clamped, and by missError() quanta more for every miss since
-/// then.
+/// the clamping range, the hit and the miss fit +-127. OctoMap's defaults give ln(0.7 / 0.3) / 23 = 0.0368:
+/// hit 23, miss 11.006, clamping at -54.3 and 95.3, both rounded. A cell's log-odds therefore differ from
+/// OctoMap's by at most half a quantum since it was last clamped, and by missError() quanta more for every
+/// miss since then.
 class OccupancyModel {
  public:
   /// Probabilities; the defaults are OctoMap's.

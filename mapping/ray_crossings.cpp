@@ -1,7 +1,6 @@
 #include "mapping/ray_crossings.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace thermovox {
 namespace {
@@ -31,6 +30,15 @@ THERMOVOX_INLINE_LOOP std::uint32_t tilePart(std::int32_t k) {
   return static_cast<std::uint32_t>(k >> kCellsPerTileBits) & 1023U;
 }
 
+/// Borders of another axis that are crossed at t: from 0 to `most`, also where a ray that is all but parallel
+/// to them makes t huge, negative or not a number.
+THERMOVOX_INLINE_LOOP std::int32_t crossed(double t, const RayCrossings::Axis::Other& other) {
+  const double borders = t * other.per_t + other.offset;
+  const auto most = static_cast<double>(other.most);
+  const double at_most = borders < most ? borders : most;
+  return static_cast<std::int32_t>(at_most > 0.0 ? at_most : 0.0);
+}
+
 THERMOVOX_INLINE_LOOP void compute(const RayCrossings::Axis& axis, std::int32_t first_crossing, int count,
                                    RayCrossings::Codes& codes) {
   const auto [own, b, c] = axis.number;
@@ -43,11 +51,9 @@ THERMOVOX_INLINE_LOOP void compute(const RayCrossings::Axis& axis, std::int32_t 
   for (int i = 0; i < count; ++i) {
     const std::int32_t k = first_crossing + i;
     const double t = t_first + static_cast<double>(k) * t_delta;
-    const auto in_b = static_cast<std::int32_t>(t * other_b.per_t + other_b.offset);
-    const auto in_c = static_cast<std::int32_t>(t * other_c.per_t + other_c.offset);
     const std::int32_t own_cell = own_first + own_step * (k + 1);
-    const std::int32_t b_cell = b_first + b_step * (in_b < other_b.most ? in_b : other_b.most);
-    const std::int32_t c_cell = c_first + c_step * (in_c < other_c.most ? in_c : other_c.most);
+    const std::int32_t b_cell = b_first + b_step * crossed(t, other_b);
+    const std::int32_t c_cell = c_first + c_step * crossed(t, other_c);
     tiles[i] = (tilePart(own_cell) << 10 * own) | (tilePart(b_cell) << 10 * b) | (tilePart(c_cell) << 10 * c);
     cells[i] = (cellPart(own_cell) << 3 * own) | (cellPart(b_cell) << 3 * b) | (cellPart(c_cell) << 3 * c);
   }

@@ -17,7 +17,7 @@ namespace thermovox {
 class RayCrossings {
  public:
   /// Cells per axis that a ray may have for this; longer ones are to be walked.
-  static constexpr std::int32_t kLongest = 1 << 15;
+  static constexpr std::int32_t kLongest = (1 << 15) - 64;  // so that tiles differ by less than 512
   static constexpr int kChunk = 256;
 
   /// The cells of up to kChunk crossings as codes: which tile, 10 bits of each of its coordinates (they tell

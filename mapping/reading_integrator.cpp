@@ -65,6 +65,16 @@ void ReadingIntegrator::setThreads(int threads) {
 }
 
 void ReadingIntegrator::integrate(std::span<const MappedReturn> reading, Carving carving, TileTable& tiles) {
+  try {
+    integrateMarked(reading, carving, tiles);
+  } catch (...) {
+    marks_ = std::vector<ReadingMarks>(1);  // with them go bits that nobody has taken
+    throw;
+  }
+}
+
+void ReadingIntegrator::integrateMarked(std::span<const MappedReturn> reading, Carving carving,
+                                        TileTable& tiles) {
   const std::size_t useful = 1 + reading.size() / kReturnsPerThread;
   const int workers = static_cast<int>(std::min(static_cast<std::size_t>(threads_), useful));
   if (marks_.size() < static_cast<std::size_t>(workers)) marks_.resize(static_cast<std::size_t>(workers));

@@ -21,7 +21,7 @@ class ReadingIntegrator {
   void setThreads(int threads);
 
   /// Precondition: all finite and within kMaxCellKey. Throws ConfigError when the tiles hold sums of
-  /// missions.
+  /// missions, and what a store throws; the tiles may then hold a part of the reading.
   void integrate(std::span<const MappedReturn> reading, Carving carving, TileTable& tiles);
 
  private:
@@ -35,6 +35,7 @@ class ReadingIntegrator {
     bool entered = false;
     MapTile* tile = nullptr;  ///< none where the reading did not enter it
   };
+  void integrateMarked(std::span<const MappedReturn> reading, Carving carving, TileTable& tiles);
   void mark(std::span<const MappedReturn> reading, Carving carving, int worker, int workers);
   void collectTiles(TileTable& tiles, int workers);
   void sweep(Carving carving, int workers);

@@ -132,7 +132,37 @@ void SceneSurfaces::forgetUnused() {
   ++view_;
 }
 
+/// The tiles of all maps in and around one, looked up once; those that a map keeps elsewhere stay there.
+class SceneSurfaces::Layers {
+ public:
+  Layers(const std::vector<const ThermalMap*>& maps, const TileKey& center) : center_(center) {
+    for (int index = 0; index < kTiles; ++index) {
+      const TileKey key{center.x + index % 3 - 1, center.y + index / 3 % 3 - 1, center.z + index / 9 - 1};
+      for (const ThermalMap* map : maps) {
+        if (auto tile = map->tile(key)) tiles_[static_cast<std::size_t>(index)].push_back(std::move(tile));
+      }
+    }
+  }
+
+  /// What the maps know of a block in or beside the tile.
+  [[nodiscard]] std::vector<const Block*> blocksAt(const BlockKey& key) const {
+    const TileKey tile = tileOf(key);
+    const int index = tile.x - center_.x + 1 + 3 * (tile.y - center_.y + 1) + 9 * (tile.z - center_.z + 1);
+    std::vector<const Block*> blocks;
+    for (const auto& layer : tiles_[static_cast<std::size_t>(index)]) {
+      if (const Block* block = layer->block(indexInTile(key))) blocks.push_back(block);
+    }
+    return blocks;
+  }
+
+ private:
+  static constexpr int kTiles = 27;
+  TileKey center_;
+  std::array<std::vector<std::shared_ptr<const MapTile>>, kTiles> tiles_;
+};
+
 std::vector<SceneSurface> SceneSurfaces::gather(const TileKey& key) const {
+  const Layers layers(maps_, key);
   std::vector<SceneSurface> surfaces;
   Neighbourhood neighbourhood(key);
   std::vector<SceneSurface> around;
@@ -141,7 +171,7 @@ std::vector<SceneSurface> SceneSurfaces::gather(const TileKey& key) const {
     for (int dy = -1; dy <= kTileEdge; ++dy) {
       for (int dx = -1; dx <= kTileEdge; ++dx) {
         const BlockKey block{first.x + dx, first.y + dy, first.z + dz};
-        appendBlock(block, tileOf(block) == key ? surfaces : around);
+        appendBlock(block, layers.blocksAt(block), tileOf(block) == key ? surfaces : around);
       }
     }
   }
@@ -151,25 +181,21 @@ std::vector<SceneSurface> SceneSurfaces::gather(const TileKey& key) const {
   return surfaces;
 }
 
-void SceneSurfaces::appendBlock(const BlockKey& key, std::vector<SceneSurface>& surfaces) const {
-  std::vector<std::pair<const ThermalMap*, const Block*>> layers;
-  for (const ThermalMap* map : maps_) {
-    if (const Block* block = map->block(key)) layers.emplace_back(map, block);
-  }
+void SceneSurfaces::appendBlock(const BlockKey& key, std::span<const Block* const> layers,
+                                std::vector<SceneSurface>& surfaces) const {
   if (layers.empty()) return;
   const OccupancyModel& model = maps_.front()->occupancyModel();
   for (int index = 0; index < kBlockCells; ++index) {
-    const auto hasSurface = [index](const auto& layer) { return layer.second->hasSurface(index); };
+    const auto hasSurface = [index](const Block* block) { return block->hasSurface(index); };
     if (std::none_of(layers.begin(), layers.end(), hasSurface)) continue;
     SurfaceCell together;
-    for (const auto& [map, block] : layers) {
+    LogOdds log_odds = kUnknown;
+    for (const Block* block : layers) {
       if (block->hasSurface(index)) together.merge(*block->surface(index));
+      log_odds = addedLogOdds(log_odds, block->log_odds[index]);
     }
-    if (together.returns == 0) continue;
+    if (together.returns == 0 || !model.isOccupied(log_odds)) continue;
     const CellKey cell = cellAt(key, index);
-    double log_odds = 0.0;
-    for (const auto& [map, block] : layers) log_odds += map->logOdds(cell).value_or(0.0);
-    if (!model.isOccupied(static_cast<LogOdds>(std::lround(log_odds / model.quantum())))) continue;
     const Eigen::Vector3d place = Eigen::Vector3d(cell.x, cell.y, cell.z) + together.meanOffset();
     surfaces.push_back({place * resolution(), Eigen::Vector3f::Zero(), cell});
   }

@@ -52,8 +52,10 @@ class SceneSurfaces {
   [[nodiscard]] std::vector<TileKey> tilesInView(const Camera& camera, const Pose& T_camera_world,
                                                  double range) const;
   [[nodiscard]] std::span<const SceneSurface> surfacesOf(const TileKey& key);
+  class Layers;
   [[nodiscard]] std::vector<SceneSurface> gather(const TileKey& key) const;
-  void appendBlock(const BlockKey& key, std::vector<SceneSurface>& surfaces) const;
+  void appendBlock(const BlockKey& key, std::span<const Block* const> layers,
+                   std::vector<SceneSurface>& surfaces) const;
   void forgetUnused();
 
   std::vector<const ThermalMap*> maps_;

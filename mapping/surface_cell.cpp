@@ -53,13 +53,15 @@ std::uint8_t incidenceCode(float incidence) {
       std::clamp(incidence * kIncidenceSteps + 0.5, 0.0, static_cast<double>(kMostIncidence)));
 }
 
-/// Cosines of the incidence codes.
+/// Cosines of the incidence codes, in 2^-40.
 const std::array<double, 256> kCosines = [] {
   std::array<double, 256> cosines{};
   for (std::size_t code = 0; code < cosines.size(); ++code) {
-    cosines[code] = std::max(std::cos(static_cast<double>(code) / kIncidenceSteps), 0.0);
+    // Rounded, because the last bits of a cosine differ between processors.
+    const double cosine = std::cos(static_cast<double>(code) / kIncidenceSteps);
+    cosines[code] = std::max(std::round(std::ldexp(cosine, 40)), 0.0);
   }
-  cosines[SurfaceCell::kUnknownIncidence] = kUnknownCosine;
+  cosines[SurfaceCell::kUnknownIncidence] = std::ldexp(kUnknownCosine, 40);
   return cosines;
 }();
 
@@ -103,6 +105,12 @@ inline void SurfaceCell::takeExtremes(const Extremes& other) {
   }
 }
 
+void checkFinite(const TemperatureObservation& observation) {
+  if (std::isfinite(observation.celsius) && std::isfinite(observation.sigma)) return;
+  throw DataError("a temperature of " + std::to_string(observation.celsius) + " C with sigma " +
+                  std::to_string(observation.sigma) + " C came to the map, expected finite numbers");
+}
+
 double SurfaceCell::guardedShare(double celsius, double sigma) const {
   if (observations < kGuardAfter) return 1.0;
   const double off = std::abs(celsius - mean());
@@ -114,10 +122,7 @@ double SurfaceCell::guardedShare(double celsius, double sigma) const {
 }
 
 void SurfaceCell::addTemperature(const TemperatureObservation& observation, Time stamp) {
-  if (!std::isfinite(observation.celsius) || !std::isfinite(observation.sigma)) {
-    throw DataError("a temperature of " + std::to_string(observation.celsius) + " C with sigma " +
-                    std::to_string(observation.sigma) + " C came to the map, expected finite numbers");
-  }
+  checkFinite(observation);
   const double celsius = std::clamp<double>(observation.celsius, kMinCelsius, kMaxCelsius);
   const double sigma = std::clamp<double>(observation.sigma, kMinSigma, kMaxSigma);
   const double weight = kWeightSteps / (sigma * sigma) * guardedShare(celsius, sigma);

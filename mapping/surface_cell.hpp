@@ -20,6 +20,9 @@ struct TemperatureObservation {
   float incidence = 0.0F;  ///< angle between the line of sight and the surface's normal, radians; NaN unknown
 };
 
+/// Throws DataError unless temperature and sigma are finite.
+void checkFinite(const TemperatureObservation& observation);
+
 /// What a cell knows of the surface in it, in 57 bytes. All sums are integers in fixed point, so that adding
 /// is exact and the result does not depend on the order (West's and Chan's updates would, in the last bits).
 /// observations == 0 is the ONLY test for "no temperature": 0 C is one.

@@ -52,18 +52,19 @@ void ThermalMap::check(std::span<const MappedReturn> reading) const {
   const double reach = kMaxCellKey * options_.resolution;
   for (const MappedReturn& ret : reading) {
     if (!isWithin(ret.p_world, reach) || !isWithin(ret.origin_world, reach)) throw tooFarOut(ret, reach);
-    if (!ret.temperature) continue;
-    const auto [celsius, sigma, range, incidence] = *ret.temperature;
-    if (std::isfinite(celsius) && std::isfinite(sigma)) continue;
-    throw DataError("a temperature of " + std::to_string(celsius) + " C with sigma " + std::to_string(sigma) +
-                    " C came to the map, expected finite numbers");
+    if (ret.temperature) checkFinite(*ret.temperature);
   }
 }
 
 void ThermalMap::observe(const CellKey& key, const TemperatureObservation& observation, Time stamp) {
-  const BlockKey block = blockOf(key);
-  MapTile& tile = tiles_.findOrNew(tileOf(block));
-  tile.blockOrNew(indexInTile(block)).surfaceOrNew(indexInBlock(key)).addTemperature(observation, stamp);
+  checkFinite(observation);
+  const BlockKey block_key = blockOf(key);
+  MapTile& tile = tiles_.findOrNew(tileOf(block_key));
+  const Block* known = tile.block(indexInTile(block_key));
+  const std::size_t before = known != nullptr ? known->memoryBytes() : 0;
+  Block& block = tile.blockOrNew(indexInTile(block_key));
+  block.surfaceOrNew(indexInBlock(key)).addTemperature(observation, stamp);
+  tiles_.grew(tileOf(block_key), block.memoryBytes() - before);
   tiles_.trim();
 }
 

@@ -63,7 +63,7 @@ class ThermalMap {
   [[nodiscard]] Occupancy occupancy(const CellKey& key) const;
   /// Log-odds of a cell (natural logarithm), clamped; nullopt where no ray ever was.
   [[nodiscard]] std::optional<double> logOdds(const CellKey& key) const;
-  /// Statistics of a cell; null where no return ever hit.
+  /// Statistics of a cell; null where no return hit and no frame painted.
   [[nodiscard]] const SurfaceCell* surface(const CellKey& key) const;
 
   [[nodiscard]] std::size_t blockCount() const;

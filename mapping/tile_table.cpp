@@ -30,7 +30,7 @@ MapTile* TileTable::find(const TileKey& key) const {
   const auto found = tiles_.find(key);
   Entry* entry = found != tiles_.end() ? &found->second : recall(key);
   if (entry == nullptr) return nullptr;
-  entry->used = ++clock_;
+  if (store_ != nullptr) entry->used = ++clock_;
   return entry->tile.get();
 }
 
@@ -69,6 +69,12 @@ void TileTable::recount(std::span<const TileKey> grown) {
     bytes_ += bytes - entry.bytes;
     entry.bytes = bytes;
   }
+}
+
+void TileTable::grew(const TileKey& key, std::size_t bytes) {
+  if (store_ == nullptr) return;
+  tiles_.at(key).bytes += bytes;
+  bytes_ += bytes;
 }
 
 void TileTable::trim() {

@@ -30,6 +30,8 @@ class TileTable {
 
   /// To be called when tiles have grown, where there is a limit: counts their memory anew.
   void recount(std::span<const TileKey> grown);
+  /// The same for a tile that has grown by so many bytes.
+  void grew(const TileKey& key, std::size_t bytes);
   /// Puts tiles into the store until the rest fits the limit; those used last stay.
   void trim();
   /// Memory of the tiles that are not in the store.

@@ -12,7 +12,7 @@
 /// On processors other than x86-64 all levels are the baseline. A file that computes with floating point in
 /// such loops is compiled with -ffp-contract=off, so that every level gives the same bits.
 #if defined(__x86_64__) && defined(__GNUC__)
-#define THERMOVOX_AVX2_FEATURES "avx2,bmi,bmi2,fma,lzcnt,popcnt"
+#define THERMOVOX_AVX2_FEATURES "avx2,bmi,bmi2,fma,popcnt"
 #define THERMOVOX_AVX512_FEATURES THERMOVOX_AVX2_FEATURES ",avx512f,avx512bw,avx512cd,avx512dq,avx512vl"
 #define THERMOVOX_TARGET_AVX2 __attribute__((target(THERMOVOX_AVX2_FEATURES)))
 #if defined(__clang__)

@@ -246,6 +246,18 @@ TEST(StationSafety, ReadersNeverSeeAnythingBetween) {
   EXPECT_THAT(namesIn(folder.path()), ElementsAre("plant.tvx"));
 }
 
+TEST(StationSafety, WritesNothingThroughALinkToNothing) {
+  const TestFolder folder;
+  fs::create_symlink(folder / "nothing.tvx", folder / "link.tvx");
+  try {
+    Station::checkWritable(folder / "link.tvx");
+    FAIL() << "expected a DataError";
+  } catch (const DataError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is a link to nothing"));
+  }
+  EXPECT_THAT(namesIn(folder.path()), ElementsAre("link.tvx"));
+}
+
 TEST(StationSafety, KeepsPermissionsAndLinksOfTheFileItContinues) {
   const TestFolder folder;
   const fs::path path = stationOf(folder, {1});

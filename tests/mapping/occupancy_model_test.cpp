@@ -26,7 +26,7 @@ TEST(OccupancyModel, CountsOctomapsDefaultsInWholeNumbers) {
 
 TEST(OccupancyModel, KeepsMissAndClampsWithinTheirBoundsForAnyOptions) {
   std::mt19937 rng(3);
-  std::uniform_real_distribution<double> hit(0.55, 0.95), miss(0.2, 0.45), low(0.02, 0.3), high(0.7, 0.99);
+  std::uniform_real_distribution<double> hit(0.55, 0.95), miss(0.001, 0.45), low(0.02, 0.3), high(0.7, 0.99);
   for (int i = 0; i < 1000; ++i) {
     const OccupancyModel::Options options{hit(rng), miss(rng), low(rng), high(rng), 0.5};
     const OccupancyModel model(options);
@@ -34,7 +34,9 @@ TEST(OccupancyModel, KeepsMissAndClampsWithinTheirBoundsForAnyOptions) {
     EXPECT_LE(model.clampMax(), 127);
     EXPECT_GE(model.clampMin(), -127);
     EXPECT_GE(model.hit(), 1);
+    EXPECT_LE(model.hit(), 127);
     EXPECT_LE(model.miss(), -1);
+    EXPECT_GE(model.miss(), -127);
     EXPECT_LE(model.missError(), 0.5);
     EXPECT_NEAR(model.miss() * model.quantum(), std::log(options.prob_miss / (1 - options.prob_miss)),
                 model.missError() * model.quantum() + 1e-12);

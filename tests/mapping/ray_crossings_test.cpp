@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -73,6 +74,36 @@ TEST(RayCrossings, TakeEdgesInTheOrderOfTheWalk) {
         expectTheWalk(origin, origin + 8.0 * Eigen::Vector3d(x, y, z), 0.25);
       }
     }
+  }
+}
+
+TEST(RayCrossings, StayBesideTheWalkWhereARayIsAllButParallelToAnAxis) {
+  // Along a border of cells, off it by less than doubles can tell from the border's own rounding.
+  for (const double resolution : {0.01, 0.02, 0.04, 0.05, 0.1}) {
+    for (const double aside : {1e-15, 1.2e-16, 1e-17, 1e-20, 1e-30, -1e-15, -1.2e-16, -1e-17, -1e-20, -1e-30}) {
+      for (const double way : {-10.0, 10.0}) {
+        for (const double from : {0.0, -aside}) {
+          const RayCells ray({0.0, from, 0.0}, {way, aside, 0.0}, resolution);
+          for (const CpuLevel level : kLevels) {
+            if (level > cpuLevel()) continue;
+            for (const CellKey& cell : cellsByCrossings(ray, level)) {
+              ASSERT_LE(std::abs(cell.y), 1) << resolution << " m, " << aside << " m aside";
+              ASSERT_EQ(cell.z, 0);
+              ASSERT_LE(std::abs(cell.x), 1 + static_cast<int>(10.0 / resolution));
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(RayCrossings, ReachAsFarAsTheySay) {
+  // From the last cell of a tile, so that the last tile is as many away as a code can tell.
+  for (const double way : {-1.0, 1.0}) {
+    const double resolution = 1.0, reach = RayCrossings::kLongest;
+    const Eigen::Vector3d origin(way > 0 ? 63.5 : 0.5, 0.25, 0.25);
+    expectTheWalk(origin, origin + way * reach * Eigen::Vector3d::UnitX(), resolution);
   }
 }
 

@@ -4,8 +4,10 @@
 
 #include <map>
 #include <random>
+#include <utility>
 
 #include "mapping/thermal_map.hpp"
+#include "projection/error.hpp"
 #include "tests/support/same_map.hpp"
 
 namespace thermovox {
@@ -74,6 +76,38 @@ TEST(SpilledMap, IsTheSameAsOneInMemory) {
   forEachSurface(spilled, [&](const CellKey& key, const SurfaceCell&) { order[1].push_back(key); });
   EXPECT_EQ(order[0], order[1]);
   EXPECT_TRUE(test::sameMap(in_memory, spilled));
+}
+
+/// Refuses to give back its first tile once it is told to.
+class FailingStore final : public TileStore {
+ public:
+  bool fails = false;
+
+  void put(const TileKey& tile, std::span<const BlockView> blocks) override { store_.put(tile, blocks); }
+  std::optional<TileBlocks> take(const TileKey& tile) override {
+    if (std::exchange(fails, false)) throw DataError("the disk is gone");
+    return store_.take(tile);
+  }
+  std::optional<TileBlocks> get(const TileKey& tile) const override { return store_.get(tile); }
+  bool holds(const TileKey& tile) const override { return store_.holds(tile); }
+  std::vector<TileKey> sortedTiles() const override { return store_.sortedTiles(); }
+
+ private:
+  MemoryStore store_;
+};
+
+TEST(SpilledMap, ForgetsAReadingThatFailed) {
+  const auto readings = scatteredReadings();
+  ThermalMap expected({.resolution = 0.1}), map({.resolution = 0.1});
+  FailingStore store;
+  map.spillTo(store, 100 << 10);
+  for (const std::size_t i : {0, 1, 2, 4}) expected.integrate(readings[i], Carving::octomap);
+  for (const std::size_t i : {0, 1, 2}) map.integrate(readings[i], Carving::octomap);
+  std::vector<MappedReturn> elsewhere = readings[0];  // whose tiles are in the store by now
+  store.fails = true;
+  EXPECT_THROW(map.integrate(elsewhere, Carving::octomap), DataError);
+  map.integrate(readings[4], Carving::octomap);
+  EXPECT_TRUE(test::sameMap(expected, map));
 }
 
 TEST(SpilledMap, MergesAndObserves) {
