@@ -104,8 +104,8 @@ TEST(SceneView, ASlimPoleHitHereAndThereHidesWhatIsBehindIt) {
 
 TEST(SceneView, FartherSurfacesThanItsRangeAreNotInIt) {
   const ThermalMap map = mapOf({kPlate, kWallBehind});
-  for (const SceneView::Seen& seen : viewOf({&map}, 3.0).surfaces())
-    EXPECT_LE(seen.surface.p_world.norm(), 3.0);
+  const SceneView near = viewOf({&map}, 3.0);
+  for (const SceneView::Seen& seen : near.surfaces()) EXPECT_LE(seen.surface.p_world.norm(), 3.0);
   EXPECT_FALSE(viewOf({&map}, 1.0).hides(lookAt(camera(), {0.1, 0.1, 5.0})));
 }
 
