@@ -16,8 +16,9 @@
 namespace thermovox {
 namespace {
 
-const std::map<std::string, Carving> kCarvings{
-    {"careful", Carving::careful}, {"octomap", Carving::octomap}, {"none", Carving::none}};
+const std::map<std::string, Carving> kCarvings{{nameOf(Carving::careful), Carving::careful},
+                                               {nameOf(Carving::octomap), Carving::octomap},
+                                               {nameOf(Carving::none), Carving::none}};
 
 constexpr std::uint64_t kMegabyte = 1'000'000;
 constexpr std::uint64_t kMostMegabytes = 1'000'000'000;
@@ -88,6 +89,23 @@ void runMap(MapArgs& args) {
   }
 }
 
+/// How the work is done, and in how many looks.
+void addWorkOptions(CLI::App& verb, const std::shared_ptr<MapArgs>& args) {
+  verb.add_option("--threads", args->job.threads,
+                  "Threads to work with; the result is the same for any number (default: all processors)");
+  verb.add_option_function<std::uint64_t>(
+          "--memory", [args](std::uint64_t megabytes) { setMemory(args->job, megabytes); },
+          "Memory that the maps may take [MB]; tiles beyond it wait in a file beside the station, which is "
+          "slower (default: half of the machine's)")
+      ->type_name("MB");
+  verb.add_flag("--two-pass", args->job.two_pass,
+                "Read each mission twice: geometry first, then colours, tested against all of it");
+  verb.add_flag(
+      "--paint", args->job.paint,
+      "Two passes, and every thermal frame colours all the surface that it sees: of its mission, of "
+      "the station as it is, of imported clouds");
+}
+
 }  // namespace
 
 void addMap(CLI::App& app) {
@@ -118,19 +136,7 @@ void addMap(CLI::App& app) {
   verb->add_flag_callback(
       "--again", [args] { args->job.known = KnownMission::add_again; },
       "Integrate a mission although the station has one of that name");
-  verb->add_option("--threads", args->job.threads,
-                   "Threads to work with; the result is the same for any number (default: all processors)");
-  verb->add_option_function<std::uint64_t>(
-          "--memory", [args](std::uint64_t megabytes) { setMemory(args->job, megabytes); },
-          "Memory that the maps may take [MB]; tiles beyond it wait in a file beside the station, which is "
-          "slower (default: half of the machine's)")
-      ->type_name("MB");
-  verb->add_flag("--two-pass", args->job.two_pass,
-                 "Read each mission twice: geometry first, then colours, tested against all of it");
-  verb->add_flag(
-      "--paint", args->job.paint,
-      "Two passes, and every thermal frame colours all the surface that it sees: of its mission, of "
-      "the station as it is, of imported clouds");
+  addWorkOptions(*verb, args);
   verb->add_flag_callback(
       "--force", [args] { args->job.existing_points = Existing::replace; },
       "Replace a points record that is there");

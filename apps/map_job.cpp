@@ -9,14 +9,15 @@
 #include <numeric>
 #include <set>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "apps/imported_cloud.hpp"
 #include "apps/progress.hpp"
+#include "io/folders.hpp"
 #include "io/mission_folder.hpp"
 #include "io/rig_file.hpp"
 #include "io/spilled_tiles.hpp"
+#include "mapping/parallel.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -185,10 +186,6 @@ std::unique_ptr<PointsRecord> openRecord(const MapJob& job) {
   return std::make_unique<PointsRecord>(job.points, job.recorded, job.existing_points);
 }
 
-int threadsOf(const MapJob& job) {
-  return job.threads > 0 ? job.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 std::uint64_t memoryOf(const MapJob& job) {
   if (job.memory_bytes > 0) return job.memory_bytes;
   return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
@@ -201,8 +198,8 @@ struct SpillingMap {
   ThermalMap map;
 
   SpillingMap(const MapJob& job, const ThermalMap::Options& options)
-      : store(job.station.has_parent_path() ? job.station.parent_path() : fs::path(".")), map(options) {
-    map.setThreads(threadsOf(job));
+      : store(folderOf(job.station)), map(options) {
+    map.setThreads(threadsToUse(job.threads));
   }
   void limitTo(std::uint64_t bytes) { map.spillTo(store, static_cast<std::size_t>(bytes)); }
 };

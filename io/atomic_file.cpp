@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "io/folders.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -16,21 +17,9 @@ namespace {
 constexpr int kMostNames = 100;
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
-/// Makes a rename last: the folder's own entry has to reach the disk too.
-void syncFolder(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // a folder that cannot be opened for reading can still be written to
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
 /// Where a file without name can be found to give it one.
 std::string linkOf(int descriptor) {
   return "/proc/self/fd/" + std::to_string(descriptor);
-}
-
-std::filesystem::path folderOf(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
 }  // namespace
@@ -149,7 +138,7 @@ void AtomicFile::commit() {
   }
   ::close(descriptor_);
   descriptor_ = -1;
-  syncFolder(folderOf(path_));
+  syncFolderOf(path_);
 }
 
 }  // namespace thermovox

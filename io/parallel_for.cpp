@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <thread>
 #include <vector>
 
 #include "mapping/parallel.hpp"
@@ -11,8 +10,7 @@
 namespace thermovox {
 
 void parallelFor(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-  const std::size_t wanted = threads > 0 ? static_cast<std::size_t>(threads)
-                                         : std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  const auto wanted = static_cast<std::size_t>(threadsToUse(threads));
   std::vector<std::exception_ptr> errors(count);
   std::atomic<std::size_t> next = 0;
   const auto run = [&] {

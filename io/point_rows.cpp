@@ -1,7 +1,5 @@
 #include "io/point_rows.hpp"
 
-#include <fcntl.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "io/folders.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -86,10 +85,8 @@ void PointRows::add(const PointRow& row) {
 
 void PointRows::spill() {
   if (descriptor_ < 0) {
-    std::string name = record_.string() + ".XXXXXX";
-    descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+    descriptor_ = openUnnamedFile(folderOf(record_));
     if (descriptor_ < 0) fail();
-    ::unlink(name.c_str());
   }
   sortByStamp(rows_);
   std::string_view bytes(reinterpret_cast<const char*>(rows_.data()), rows_.size() * sizeof(PointRow));

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "io/folders.hpp"
 #include "io/tile_codec.hpp"
 #include "projection/error.hpp"
 
@@ -22,16 +23,6 @@ constexpr std::uint64_t kPage = 4096;
 std::uint64_t roomFor(std::uint64_t size) {
   const std::uint64_t step = std::max(kPage, std::bit_ceil(size) / 8);
   return (size + step - 1) / step * step;
-}
-
-/// A file in the folder that has no name; below zero, with errno, when there can be none.
-int openUnnamed(const std::filesystem::path& folder) {
-  const int unnamed = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (unnamed >= 0) return unnamed;
-  std::string name = (folder / ".thermovox-tiles-XXXXXX").string();
-  const int named = ::mkostemp(name.data(), O_CLOEXEC);
-  if (named >= 0) ::unlink(name.c_str());
-  return named;
 }
 
 }  // namespace
@@ -53,7 +44,7 @@ void SpilledTiles::fail(const char* action, int error) const {
 
 void SpilledTiles::open() {
   if (descriptor_ >= 0) return;
-  descriptor_ = openUnnamed(folder_);
+  descriptor_ = openUnnamedFile(folder_);
   if (descriptor_ < 0) fail("kept", errno);
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "io/atomic_file.hpp"
+#include "io/folders.hpp"
 #include "io/number_text.hpp"
 #include "io/parallel_for.hpp"
 #include "io/pose_text.hpp"
@@ -27,10 +28,6 @@ namespace {
 constexpr std::string_view kUnfinished = ".unfinished";
 /// Tiles that are encoded at a time.
 constexpr std::size_t kBatch = 64;
-
-fs::path folderOf(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
 
 [[noreturn]] void fail(const fs::path& path, const char* action, int error) {
   throw DataError(path.string() + ": " + action + " (" + std::strerror(error) + ")");
@@ -67,13 +64,6 @@ void syncToDisk(const fs::path& file, const fs::path& shown) {
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   if (error != 0) fail(shown, "cannot be written", error);
-}
-
-void syncFolderOf(const fs::path& path) {
-  const int descriptor = ::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // a folder that cannot be opened for reading can still be written to
-  ::fsync(descriptor);
-  ::close(descriptor);
 }
 
 /// What all sources have of one tile.

@@ -9,7 +9,7 @@
 
 namespace thermovox {
 
-/// The blocks as bytes: little endian whatever the machine, compressed with zstd, with its checksum. Blocks
+/// The blocks as bytes: little endian as in memory, compressed with zstd, with its checksum. Blocks
 /// that compare equal give the same bytes. Precondition: all blocks lie in one tile, each once.
 [[nodiscard]] std::string encodeTile(std::span<const BlockView> blocks);
 [[nodiscard]] std::string encodeTile(const TileBlocks& blocks);

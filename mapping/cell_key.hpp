@@ -96,9 +96,18 @@ struct TileKey {
           tile.z * kTileEdge + (index >> (2 * kTileBits))};
 }
 
-/// Place of a cell within its tile: indexInTile of its block * kBlockCells + indexInBlock.
-[[nodiscard]] inline std::uint32_t cellInTile(const CellKey& key) {
-  return static_cast<std::uint32_t>(indexInTile(blockOf(key)) << (3 * kBlockBits) | indexInBlock(key));
+/// A cell by its tile and its place therein.
+struct CellPlace {
+  TileKey tile;
+  std::uint32_t in_tile = 0;  ///< block() * kBlockCells + inBlock()
+
+  [[nodiscard]] int block() const { return static_cast<int>(in_tile / kBlockCells); }    ///< indexInTile
+  [[nodiscard]] int inBlock() const { return static_cast<int>(in_tile % kBlockCells); }  ///< indexInBlock
+  [[nodiscard]] CellKey key() const { return cellAt(blockAt(tile, block()), inBlock()); }
+};
+[[nodiscard]] inline CellPlace placeOf(const CellKey& key) {
+  const BlockKey block = blockOf(key);
+  return {tileOf(block), static_cast<std::uint32_t>(indexInTile(block) * kBlockCells + indexInBlock(key))};
 }
 
 struct BlockKeyHash {
@@ -111,6 +120,12 @@ struct BlockKeyHash {
     h *= 0xff51afd7ed558ccdULL;
     h ^= h >> 33;
     return static_cast<std::size_t>(h);
+  }
+};
+
+struct TileKeyHash {
+  [[nodiscard]] std::size_t operator()(const TileKey& key) const {
+    return BlockKeyHash{}({key.x, key.y, key.z});
   }
 };
 

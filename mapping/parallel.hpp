@@ -1,11 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <thread>
 #include <vector>
 
 namespace thermovox {
+
+/// The number of threads to use where so many are asked for; 0 asks for one for each processor.
+[[nodiscard]] inline int threadsToUse(int asked) {
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 /// Calls work(0) .. work(workers - 1) at the same time, work(0) here, and waits for all. The first exception,
 /// by the number of the worker, is thrown on.

@@ -21,7 +21,7 @@ class RayCrossings {
   static constexpr int kChunk = 256;
 
   /// The cells of up to kChunk crossings as codes: which tile, 10 bits of each of its coordinates (they tell
-  /// the tiles of one ray apart), and which cell in it: block (indexInTile) * 512 + cell (indexInBlock).
+  /// the tiles of one ray apart), and which cell in it: CellPlace::in_tile.
   struct Codes {
     alignas(64) std::array<std::uint32_t, kChunk> tile;
     alignas(64) std::array<std::uint32_t, kChunk> cell;

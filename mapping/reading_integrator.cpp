@@ -16,10 +16,6 @@ namespace {
 constexpr std::size_t kReturnsPerThread = 2000;  // fewer are not worth starting one
 constexpr std::size_t kBatch = 32;               // returns whose cells are fetched together
 
-CellKey cellOf(const TileKey& tile, std::uint32_t cell) {
-  return cellAt(blockAt(tile, static_cast<int>(cell >> 9)), static_cast<int>(cell & 511));
-}
-
 /// Place within its cell, in edges.
 Eigen::Vector3d offsetInCell(const Eigen::Vector3d& p_world, const CellKey& key, double inverse_resolution) {
   return p_world * inverse_resolution - Eigen::Vector3d(key.x, key.y, key.z);
@@ -101,8 +97,8 @@ void ReadingIntegrator::mark(std::span<const MappedReturn> reading, Carving carv
       reading.size() * static_cast<std::size_t>(worker + 1) / static_cast<std::size_t>(workers);
   for (std::size_t i = begin; i < end; ++i) {
     const CellKey key = cellKey(reading[i].p_world, inverse);
-    hits_[i] = {tileOf(blockOf(key)), cellInTile(key)};
-    marks.markHit(key);
+    hits_[i] = placeOf(key);
+    marks.markHit(hits_[i]);
     if (carving == Carving::none) continue;
     if (carving == Carving::careful) marks.markBeside(key);
     marks.markPassed(RayCells(reading[i].origin_world, reading[i].p_world, resolution_));
@@ -177,7 +173,7 @@ void ReadingIntegrator::addReturns(std::span<const MappedReturn> reading, int wo
   const auto addBatch = [&] {
     for (std::size_t i = 0; i < filled; ++i) {  // both lines are fetched while others are waited for
       const auto& [place, block] = batch[i];
-      if (const SurfaceCell* cell = block->surface(static_cast<int>(hits_[place].cell & 511))) prefetch(cell);
+      if (const SurfaceCell* cell = block->surface(hits_[place].inBlock())) prefetch(cell);
     }
     for (std::size_t i = 0; i < filled; ++i) {
       addReturn(reading[batch[i].first], hits_[batch[i].first], *batch[i].second);
@@ -188,7 +184,7 @@ void ReadingIntegrator::addReturns(std::span<const MappedReturn> reading, int wo
   for (std::size_t i = 0; i < reading.size(); ++i) {
     if (swept->key != hits_[i].tile) swept = sweptTile(hits_[i].tile);
     if ((swept - swept_.data()) % workers != worker) continue;
-    Block& block = swept->tile->blockOrNew(static_cast<int>(hits_[i].cell >> 9));
+    Block& block = swept->tile->blockOrNew(hits_[i].block());
     prefetch(&block.surfaceMask());
     if (i + kBatch < reading.size()) prefetch(&reading[i + kBatch]);
     batch[filled++] = {i, &block};
@@ -202,9 +198,9 @@ const ReadingIntegrator::SweptTile* ReadingIntegrator::sweptTile(const TileKey& 
                             [](const SweptTile& a, const TileKey& b) { return a.key < b; });
 }
 
-void ReadingIntegrator::addReturn(const MappedReturn& ret, const HitCell& hit, Block& block) const {
-  SurfaceCell& cell = block.surfaceOrNew(static_cast<int>(hit.cell & 511));
-  cell.addReturn(offsetInCell(ret.p_world, cellOf(hit.tile, hit.cell), 1.0 / resolution_));
+void ReadingIntegrator::addReturn(const MappedReturn& ret, const CellPlace& hit, Block& block) const {
+  SurfaceCell& cell = block.surfaceOrNew(hit.inBlock());
+  cell.addReturn(offsetInCell(ret.p_world, hit.key(), 1.0 / resolution_));
   if (ret.temperature) cell.addTemperature(*ret.temperature, ret.stamp);
 }
 

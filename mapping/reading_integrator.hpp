@@ -25,11 +25,6 @@ class ReadingIntegrator {
   void integrate(std::span<const MappedReturn> reading, Carving carving, TileTable& tiles);
 
  private:
-  /// The cell that a return hit.
-  struct HitCell {
-    TileKey tile;
-    std::uint32_t cell = 0;  ///< block (indexInTile) * 512 + cell (indexInBlock)
-  };
   struct SweptTile {
     TileKey key;
     bool entered = false;
@@ -43,7 +38,7 @@ class ReadingIntegrator {
   void sweepBlock(int index, std::span<ReadingMarks::Tile* const> marked, Carving carving,
                   MapTile& tile) const;
   void addReturns(std::span<const MappedReturn> reading, int worker, int workers);
-  void addReturn(const MappedReturn& ret, const HitCell& hit, Block& block) const;
+  void addReturn(const MappedReturn& ret, const CellPlace& hit, Block& block) const;
 
   [[nodiscard]] const SweptTile* sweptTile(const TileKey& key) const;
 
@@ -51,7 +46,7 @@ class ReadingIntegrator {
   double resolution_;
   int threads_ = 1;
   std::vector<ReadingMarks> marks_;  ///< one a thread; empty between readings
-  std::vector<HitCell> hits_;        ///< of the reading at hand, one a return
+  std::vector<CellPlace> hits_;      ///< of the reading at hand, one a return
   std::vector<SweptTile> swept_;     ///< ascending
 };
 

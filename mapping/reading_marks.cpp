@@ -37,17 +37,20 @@ ReadingMarks::Tile* ReadingMarks::find(const TileKey& key) const {
   return found == table_.end() ? nullptr : found->second;
 }
 
-void ReadingMarks::markHit(const CellKey& key) {
-  Tile& tile = enter(tileOf(blockOf(key)));
-  const std::uint32_t cell = cellInTile(key);
-  setBit(tile.hit, cell);
-  tile.hit_blocks[cell >> 15] |= std::uint64_t{1} << ((cell >> 9) & 63);
+void ReadingMarks::markHit(const CellPlace& place) {
+  Tile& tile = enter(place.tile);
+  setBit(tile.hit, place.in_tile);
+  const auto block = static_cast<std::size_t>(place.block());
+  tile.hit_blocks[block / 64] |= std::uint64_t{1} << (block % 64);
 }
 
 void ReadingMarks::markBeside(const CellKey& key) {
   const CellKey beside[] = {{key.x - 1, key.y, key.z}, {key.x + 1, key.y, key.z}, {key.x, key.y - 1, key.z},
                             {key.x, key.y + 1, key.z}, {key.x, key.y, key.z - 1}, {key.x, key.y, key.z + 1}};
-  for (const CellKey& cell : beside) setBit(tileOrNew(tileOf(blockOf(cell))).beside, cellInTile(cell));
+  for (const CellKey& cell : beside) {
+    const CellPlace place = placeOf(cell);
+    setBit(tileOrNew(place.tile).beside, place.in_tile);
+  }
 }
 
 /// The loop of markPassed over the codes of one chunk.
@@ -70,16 +73,19 @@ void ReadingMarks::markPassed(const RayCells& ray) {
   if (ray.first() == ray.last()) return;
   const RayCrossings crossings(ray);
   if (crossings.isTooLong()) return walk(ray);
-  const TileKey first_tile = tileOf(blockOf(ray.first()));
-  setBit(enter(first_tile).passed, cellInTile(ray.first()));
+  const CellPlace first = placeOf(ray.first());
+  setBit(enter(first.tile).passed, first.in_tile);
   crossings.forEachChunk(codes_, [&](const RayCrossings::Codes& codes, int count) {
     markChunk(codes, count,
-              [&](std::uint32_t code) { return enter(tileOfCode(code, first_tile)).passed.data(); });
+              [&](std::uint32_t code) { return enter(tileOfCode(code, first.tile)).passed.data(); });
   });
 }
 
 void ReadingMarks::walk(const RayCells& ray) {
-  ray.forEach([this](const CellKey& key) { setBit(enter(tileOf(blockOf(key))).passed, cellInTile(key)); });
+  ray.forEach([this](const CellKey& key) {
+    const CellPlace place = placeOf(key);
+    setBit(enter(place.tile).passed, place.in_tile);
+  });
 }
 
 void ReadingMarks::clear() {

@@ -28,7 +28,7 @@ class ReadingMarks {
     Bits beside;  ///< next to a hit; only where asked for
   };
 
-  void markHit(const CellKey& key);
+  void markHit(const CellPlace& place);
   /// The six cells that share a face with this one.
   void markBeside(const CellKey& key);
   /// All cells of the ray before its last one, which may be marked too: its return is a hit.
@@ -42,9 +42,6 @@ class ReadingMarks {
   void clear();
 
  private:
-  struct TileKeyHash {
-    std::size_t operator()(const TileKey& key) const { return BlockKeyHash{}({key.x, key.y, key.z}); }
-  };
   struct Slot {
     TileKey key;
     Tile* tile = nullptr;

@@ -97,11 +97,8 @@ SceneSurfaces::SceneSurfaces(std::vector<const ThermalMap*> maps) : maps_(std::m
     if (map->options() != maps_.front()->options()) {
       throw ConfigError("the maps of a scene: expected one resolution and one occupancy model");
     }
-    const auto collect = [this](const TileKey& key) {
-      keys_.push_back(key);
-      return false;  // its blocks are not needed yet
-    };
-    map->forEachBlockOfTiles(collect, [](const BlockKey&, const Block&) {});
+    const std::vector<TileKey> keys = map->sortedTileKeys();
+    keys_.insert(keys_.end(), keys.begin(), keys.end());
   }
   std::sort(keys_.begin(), keys_.end());
   keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());

@@ -116,8 +116,4 @@ std::vector<TileKey> TileTable::sortedKeys() const {
   return keys;
 }
 
-std::size_t TileTable::size() const {
-  return tiles_.size() + (store_ != nullptr ? store_->sortedTiles().size() : 0);
-}
-
 }  // namespace thermovox

@@ -41,7 +41,6 @@ class TileTable {
 
   /// All, also those in the store.
   [[nodiscard]] std::vector<TileKey> sortedKeys() const;
-  [[nodiscard]] std::size_t size() const;
 
   /// Calls visit(key, tile) for every tile that keep(key) lets pass, in no particular order. What is in the
   /// store is read and stays there.
@@ -69,9 +68,6 @@ class TileTable {
   }
 
  private:
-  struct TileKeyHash {
-    std::size_t operator()(const TileKey& key) const { return BlockKeyHash{}({key.x, key.y, key.z}); }
-  };
   struct Entry {
     std::unique_ptr<MapTile> tile;
     std::size_t bytes = 0;

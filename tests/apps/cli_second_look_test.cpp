@@ -33,6 +33,17 @@ std::size_t colouredCells(const TestFolder& folder, const std::string& station) 
   return coloured;
 }
 
+/// A mission of a cloud and one of a beam in the same hall.
+void flyCloudAndBeam(const TestFolder& folder) {
+  simulate::SimulationOptions options{.laser = LaserKind::cloud, .seed = 3, .duration = 1.0};
+  options.supersampling = 1;
+  simulate::simulateMission(options, folder / "cloud");
+  options.laser = LaserKind::beam;
+  options.seed = 4;
+  options.hall_seed = 3;
+  simulate::simulateMission(options, folder / "beam");
+}
+
 TEST(MapInTwoPasses, HasTheSameGeometryAndSaysSo) {
   const TestFolder folder;
   flyMission(folder, "hall", LaserKind::scan);
@@ -64,13 +75,7 @@ TEST(MapInTwoPasses, PaintingColoursMoreAndGivesTheSameBytesAgain) {
 
 TEST(MapInTwoPasses, ABeamPaintsAnEarlierMissionsMap) {
   const TestFolder folder;
-  simulate::SimulationOptions options{.laser = LaserKind::cloud, .seed = 3, .duration = 1.0};
-  options.supersampling = 1;
-  simulate::simulateMission(options, folder / "cloud");
-  options.laser = LaserKind::beam;
-  options.seed = 4;
-  options.hall_seed = 3;
-  simulate::simulateMission(options, folder / "beam");
+  flyCloudAndBeam(folder);
   const nlohmann::json before = mapped(folder, "cloud --station s.tvx");
   const nlohmann::json after = mapped(folder, "beam --station s.tvx --paint");
   EXPECT_GT(after.at("painted"), 1000);
@@ -80,13 +85,7 @@ TEST(MapInTwoPasses, ABeamPaintsAnEarlierMissionsMap) {
 
 TEST(ImportedGeometry, EntersTheStationOnceAndIsPainted) {
   const TestFolder folder;
-  simulate::SimulationOptions options{.laser = LaserKind::cloud, .seed = 3, .duration = 1.0};
-  options.supersampling = 1;
-  simulate::simulateMission(options, folder / "cloud");
-  options.laser = LaserKind::beam;
-  options.seed = 4;
-  options.hall_seed = 3;
-  simulate::simulateMission(options, folder / "beam");
+  flyCloudAndBeam(folder);
   const nlohmann::json cloud = mapped(folder, "cloud --station cloud.tvx");
   for (const std::string name : {"plant.ply", "plant2.pcd"}) {
     ASSERT_EQ(thermovox(folder.path(), "export cloud.tvx " + name).code, 0);

@@ -80,7 +80,8 @@ TEST(RayCrossings, TakeEdgesInTheOrderOfTheWalk) {
 TEST(RayCrossings, StayBesideTheWalkWhereARayIsAllButParallelToAnAxis) {
   // Along a border of cells, off it by less than doubles can tell from the border's own rounding.
   for (const double resolution : {0.01, 0.02, 0.04, 0.05, 0.1}) {
-    for (const double aside : {1e-15, 1.2e-16, 1e-17, 1e-20, 1e-30, -1e-15, -1.2e-16, -1e-17, -1e-20, -1e-30}) {
+    for (const double aside :
+         {1e-15, 1.2e-16, 1e-17, 1e-20, 1e-30, -1e-15, -1.2e-16, -1e-17, -1e-20, -1e-30}) {
       for (const double way : {-10.0, 10.0}) {
         for (const double from : {0.0, -aside}) {
           const RayCells ray({0.0, from, 0.0}, {way, aside, 0.0}, resolution);

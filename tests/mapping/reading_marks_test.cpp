@@ -39,7 +39,7 @@ TEST(ReadingMarks, AreThoseOfAPlainSetReadingAfterReading) {
     for (int i = 0; i < rays; ++i) {
       const Eigen::Vector3d end(coordinate(rng), coordinate(rng), coordinate(rng));
       const RayCells ray(origin, end, 0.1);
-      marks.markHit(ray.last());
+      marks.markHit(placeOf(ray.last()));
       expected[ray.last()] |= kHit;
       marks.markPassed(ray);
       ray.forEach([&](const CellKey& key) { expected[key] |= kPassed; });
@@ -75,8 +75,8 @@ TEST(ReadingMarks, WalkRaysThatAreTooLongForCodes) {
 
 TEST(ReadingMarks, TellTilesApartThatShareASlot) {
   ReadingMarks marks;
-  for (const int x : {0, 16 * 64, -16 * 64, 32 * 64}) marks.markHit({x, 0, 0});
-  for (const int x : {0, 16 * 64, -16 * 64, 32 * 64}) marks.markHit({x, 1, 0});
+  for (const int x : {0, 16 * 64, -16 * 64, 32 * 64}) marks.markHit(placeOf({x, 0, 0}));
+  for (const int x : {0, 16 * 64, -16 * 64, 32 * 64}) marks.markHit(placeOf({x, 1, 0}));
   EXPECT_EQ(marks.tiles().size(), 4U);
   EXPECT_EQ(takeMarks(marks).size(), 8U);
 }
@@ -85,7 +85,7 @@ TEST(ReadingMarks, AreEmptyAtFirstAndAfterClear) {
   ReadingMarks marks;
   EXPECT_TRUE(marks.tiles().empty());
   EXPECT_EQ(marks.find({0, 0, 0}), nullptr);
-  marks.markHit({1, 2, 3});
+  marks.markHit(placeOf({1, 2, 3}));
   EXPECT_NE(marks.find({0, 0, 0}), nullptr);
   EXPECT_EQ(takeMarks(marks).size(), 1U);
   EXPECT_TRUE(marks.tiles().empty());

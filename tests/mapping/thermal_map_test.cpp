@@ -142,7 +142,7 @@ TEST(ThermalMap, VisitsSurfacesInTheOrderOfTheirTiles) {
   const ThermalMap map = randomMission(4);
   std::vector<std::pair<TileKey, std::uint32_t>> order;
   forEachSurface(map, [&](const CellKey& key, const SurfaceCell& cell) {
-    order.emplace_back(tileOf(blockOf(key)), cellInTile(key));
+    order.emplace_back(placeOf(key).tile, placeOf(key).in_tile);
     EXPECT_EQ(map.surface(key), &cell);
   });
   EXPECT_EQ(order.size(), map.surfaceCount());
