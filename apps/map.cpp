@@ -130,7 +130,7 @@ void addMap(CLI::App& app) {
   addChoice(*verb, "--carve", args->job.mapper.carving, kCarvings,
             "Which cells a ray frees: octomap (all before its return, as OctoMap does), careful (of these no "
             "cell that a return of the mission hit, and none beside a hit of the same sweep), or none "
-            "(default octomap)");
+            "(default careful)");
   verb->add_option("--max-gap", args->job.max_gap, "Longest time without poses that is interpolated [s]")
       ->capture_default_str();
   verb->add_flag_callback(

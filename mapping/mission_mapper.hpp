@@ -48,7 +48,7 @@ class MissionMapper {
     paint,    ///< likewise, and frames instead of returns give the map its temperatures
   };
   struct Options {
-    Carving carving = Carving::octomap;
+    Carving carving = Carving::careful;
     /// Farthest in time that a frame may be from the return it colours. Zero: half a frame period + 50 ms
     /// where the period is known (mapMission), 50 ms where not.
     Duration frame_limit = Duration::zero();

@@ -21,14 +21,20 @@ Eigen::Vector3d offsetInCell(const Eigen::Vector3d& p_world, const CellKey& key,
   return p_world * inverse_resolution - Eigen::Vector3d(key.x, key.y, key.z);
 }
 
-/// Moves the bits of a block into `to`. Where there are none nothing is written, so that pages which were
-/// never marked stay the system's.
-void take(ReadingMarks::Tile::Bits& tile, int block, CellBits& to) {
+/// Moves what is marked of a block into `to`. Where there is nothing no bits are written, so that pages which
+/// were never marked stay the system's.
+void take(ReadingMarks::Bits& tile, int block, CellBits& to) {
   std::uint64_t* from = tile.data() + static_cast<std::size_t>(block) * to.size();
   std::uint64_t all = 0;
   for (std::size_t word = 0; word < to.size(); ++word) all |= from[word];
   if (all == 0) return;
   for (std::size_t word = 0; word < to.size(); ++word) to[word] |= std::exchange(from[word], 0);
+}
+
+void join(const SparseTileBits& tile, int block, CellBits& to) {
+  const CellBits* from = tile.find(block);
+  if (from == nullptr) return;
+  for (std::size_t word = 0; word < to.size(); ++word) to[word] |= (*from)[word];
 }
 
 void removeBits(CellBits& bits, const CellBits& a, const CellBits& b) {
@@ -133,14 +139,11 @@ void ReadingIntegrator::sweepTile(const SweptTile& swept, Carving carving) {
   for (const ReadingMarks& marks : marks_) {
     if (ReadingMarks::Tile* tile = marks.find(swept.key)) marked.push_back(tile);
   }
-  if (swept.tile == nullptr) {
-    for (ReadingMarks::Tile* tile : marked) tile->beside.fill(0);
-    return;
-  }
+  if (swept.tile == nullptr) return;  // only beside a hit
   for (std::size_t word = 0; word < kTileBlocks / 64; ++word) {
     // Where no ray was followed, only blocks with a hit have marks.
     std::uint64_t blocks = carving == Carving::none ? 0 : ~std::uint64_t{0};
-    for (ReadingMarks::Tile* tile : marked) blocks |= std::exchange(tile->hit_blocks[word], 0);
+    for (const ReadingMarks::Tile* tile : marked) blocks |= tile->hit.blocks()[word];
     for (; blocks != 0; blocks &= blocks - 1) {
       sweepBlock(static_cast<int>(64 * word) + std::countr_zero(blocks), marked, carving, *swept.tile);
     }
@@ -152,9 +155,9 @@ void ReadingIntegrator::sweepBlock(int index, std::span<ReadingMarks::Tile* cons
   const bool careful = carving == Carving::careful;
   CellBits passed{}, hit{}, beside{};
   for (ReadingMarks::Tile* marks : marked) {
-    if (carving != Carving::none) take(marks->passed, index, passed);
-    take(marks->hit, index, hit);
-    if (careful) take(marks->beside, index, beside);
+    if (marks->passed) take(*marks->passed, index, passed);
+    join(marks->hit, index, hit);
+    if (careful) join(marks->beside, index, beside);
   }
   if (!any(passed, hit)) return;
   Block& block = tile.blockOrNew(index);

@@ -1,29 +1,27 @@
 #include "mapping/reading_marks.hpp"
 
 #include <new>
-#include <type_traits>
 
 namespace thermovox {
 namespace {
 
-void setBit(ReadingMarks::Tile::Bits& bits, std::uint32_t cell) {
+void setBit(std::uint64_t* bits, std::uint32_t cell) {
   bits[cell >> 6] |= std::uint64_t{1} << (cell & 63);
 }
 
 }  // namespace
 
 /// From calloc: what is never marked takes no memory, for the system's zeroed pages stay shared.
-ReadingMarks::TilePointer ReadingMarks::newTile() {
-  static_assert(std::is_trivially_copyable_v<Tile>);
-  auto* tile = static_cast<Tile*>(std::calloc(1, sizeof(Tile)));
-  if (tile == nullptr) throw std::bad_alloc();
-  return TilePointer(tile);
+std::unique_ptr<ReadingMarks::Bits, ReadingMarks::Freer> ReadingMarks::newBits() {
+  auto* bits = static_cast<Bits*>(std::calloc(1, sizeof(Bits)));
+  if (bits == nullptr) throw std::bad_alloc();
+  return std::unique_ptr<Bits, Freer>(bits);
 }
 
 ReadingMarks::Tile& ReadingMarks::lookUp(const TileKey& key) {
   Tile*& tile = table_[key];
   if (tile == nullptr) {
-    if (used_.size() == pool_.size()) pool_.push_back(newTile());
+    if (used_.size() == pool_.size()) pool_.push_back(std::make_unique<Tile>());
     tile = pool_[used_.size()].get();
     tile->key = key;
     used_.push_back(tile);
@@ -38,10 +36,7 @@ ReadingMarks::Tile* ReadingMarks::find(const TileKey& key) const {
 }
 
 void ReadingMarks::markHit(const CellPlace& place) {
-  Tile& tile = enter(place.tile);
-  setBit(tile.hit, place.in_tile);
-  const auto block = static_cast<std::size_t>(place.block());
-  tile.hit_blocks[block / 64] |= std::uint64_t{1} << (block % 64);
+  enter(place.tile).hit.set(place.in_tile);
 }
 
 void ReadingMarks::markBeside(const CellKey& key) {
@@ -49,7 +44,7 @@ void ReadingMarks::markBeside(const CellKey& key) {
                             {key.x, key.y + 1, key.z}, {key.x, key.y, key.z - 1}, {key.x, key.y, key.z + 1}};
   for (const CellKey& cell : beside) {
     const CellPlace place = placeOf(cell);
-    setBit(tileOrNew(place.tile).beside, place.in_tile);
+    tileOrNew(place.tile).beside.set(place.in_tile);
   }
 }
 
@@ -74,17 +69,16 @@ void ReadingMarks::markPassed(const RayCells& ray) {
   const RayCrossings crossings(ray);
   if (crossings.isTooLong()) return walk(ray);
   const CellPlace first = placeOf(ray.first());
-  setBit(enter(first.tile).passed, first.in_tile);
+  setBit(passedOf(first.tile), first.in_tile);
   crossings.forEachChunk(codes_, [&](const RayCrossings::Codes& codes, int count) {
-    markChunk(codes, count,
-              [&](std::uint32_t code) { return enter(tileOfCode(code, first.tile)).passed.data(); });
+    markChunk(codes, count, [&](std::uint32_t code) { return passedOf(tileOfCode(code, first.tile)); });
   });
 }
 
 void ReadingMarks::walk(const RayCells& ray) {
   ray.forEach([this](const CellKey& key) {
     const CellPlace place = placeOf(key);
-    setBit(enter(place.tile).passed, place.in_tile);
+    setBit(passedOf(place.tile), place.in_tile);
   });
 }
 
@@ -92,9 +86,12 @@ void ReadingMarks::clear() {
   for (Tile* tile : used_) {
     slots_[slotOf(tile->key)].tile = nullptr;
     tile->entered = false;
+    tile->hit.clear();
+    tile->beside.clear();
   }
   used_.clear();
   table_.clear();
+  if (pool_.size() > kKeptTiles) pool_.resize(kKeptTiles);
 }
 
 }  // namespace thermovox

@@ -9,6 +9,7 @@
 
 #include "mapping/block.hpp"
 #include "mapping/ray_crossings.hpp"
+#include "mapping/sparse_tile_bits.hpp"
 
 namespace thermovox {
 
@@ -17,15 +18,19 @@ namespace thermovox {
 /// a block's are one cache line.
 class ReadingMarks {
  public:
+  /// The CellBits of a tile's blocks, one after the other.
+  using Bits = std::array<std::uint64_t, kTileBlocks * std::tuple_size_v<CellBits>>;
+  struct Freer {
+    void operator()(Bits* bits) const { std::free(bits); }
+  };
   struct Tile {
-    /// The CellBits of its blocks, one after the other.
-    using Bits = std::array<std::uint64_t, kTileBlocks * std::tuple_size_v<CellBits>>;
     TileKey key;
-    bool entered;                                            ///< hit or passed, and not only beside a hit
-    std::array<std::uint64_t, kTileBlocks / 64> hit_blocks;  ///< those with a hit
-    Bits passed;  ///< by a ray; where `hit` is set too, the hit counts
-    Bits hit;
-    Bits beside;  ///< next to a hit; only where asked for
+    bool entered = false;  ///< hit or passed, and not only beside a hit
+    /// By a ray; where `hit` is set too, the hit counts. Null where no ray was followed. Whoever reads the
+    /// bits clears them.
+    std::unique_ptr<Bits, Freer> passed;
+    SparseTileBits hit;
+    SparseTileBits beside;  ///< next to a hit; only where asked for
   };
 
   void markHit(const CellPlace& place);
@@ -34,11 +39,12 @@ class ReadingMarks {
   /// All cells of the ray before its last one, which may be marked too: its return is a hit.
   void markPassed(const RayCells& ray);
 
-  /// The marked tiles in the order in which they were first marked. Whoever reads the bits clears them.
+  /// The marked tiles in the order in which they were first marked.
   [[nodiscard]] const std::vector<Tile*>& tiles() const { return used_; }
   /// The marks of a tile; null when it has none.
   [[nodiscard]] Tile* find(const TileKey& key) const;
-  /// Forgets the tiles, whose bits are clear again, and keeps their memory for the next reading.
+  /// Forgets the tiles, of which nothing is marked as passed any more, and keeps the memory of some, at most
+  /// 10 MB, for the next reading.
   void clear();
 
  private:
@@ -47,12 +53,7 @@ class ReadingMarks {
     Tile* tile = nullptr;
   };
   static constexpr std::size_t kSlots = 4096;
-  struct Freer {
-    void operator()(Tile* tile) const { std::free(tile); }
-  };
-  using TilePointer = std::unique_ptr<Tile, Freer>;
-  [[nodiscard]] static TilePointer newTile();
-
+  static constexpr std::size_t kKeptTiles = 256;
   [[nodiscard]] static std::size_t slotOf(const TileKey& key) {
     return static_cast<std::size_t>((key.x & 15) | (key.y & 15) << 4 | (key.z & 15) << 8);
   }
@@ -66,13 +67,20 @@ class ReadingMarks {
     tile.entered = true;
     return tile;
   }
+  /// The bits of what is passed of a tile, which is entered.
+  [[nodiscard]] std::uint64_t* passedOf(const TileKey& key) {
+    Tile& tile = enter(key);
+    if (!tile.passed) tile.passed = newBits();
+    return tile.passed->data();
+  }
+  [[nodiscard]] static std::unique_ptr<Bits, Freer> newBits();
   Tile& lookUp(const TileKey& key);
   void walk(const RayCells& ray);
 
   std::vector<Slot> slots_{kSlots};  ///< the tile looked up last of those that share a slot
   std::unordered_map<TileKey, Tile*, TileKeyHash> table_;
   std::vector<Tile*> used_;
-  std::vector<TilePointer> pool_;  ///< those in use first
+  std::vector<std::unique_ptr<Tile>> pool_;  ///< those in use first
   RayCrossings::Codes codes_;
 };
 

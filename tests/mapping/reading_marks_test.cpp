@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 
@@ -13,17 +14,24 @@ enum Mark { kPassed = 1, kHit = 2, kBeside = 4 };
 /// The marked cells; clears them, as whoever reads the marks does.
 std::map<CellKey, int> takeMarks(ReadingMarks& marks) {
   std::map<CellKey, int> cells;
-  const auto collect = [&](const TileKey& tile, ReadingMarks::Tile::Bits& bits, int mark) {
-    for (int i = 0; i < kTileBlocks * kBlockCells; ++i) {
-      std::uint64_t& word = bits[static_cast<std::size_t>(i / 64)];
-      if ((word >> (i % 64) & 1) != 0) cells[cellAt(blockAt(tile, i / kBlockCells), i % kBlockCells)] |= mark;
+  const auto collect = [&](const TileKey& tile, int block, const CellBits& bits, int mark) {
+    for (int i = 0; i < kBlockCells; ++i) {
+      const std::uint64_t word = bits[static_cast<std::size_t>(i / 64)];
+      if ((word >> (i % 64) & 1) != 0) cells[cellAt(blockAt(tile, block), i)] |= mark;
     }
-    bits.fill(0);
   };
   for (ReadingMarks::Tile* tile : marks.tiles()) {
-    collect(tile->key, tile->passed, kPassed);
-    collect(tile->key, tile->hit, kHit);
-    collect(tile->key, tile->beside, kBeside);
+    for (int block = 0; block < kTileBlocks; ++block) {
+      if (tile->passed) {
+        CellBits passed{};
+        std::copy_n(tile->passed->begin() + block * static_cast<int>(passed.size()), passed.size(),
+                    passed.begin());
+        collect(tile->key, block, passed, kPassed);
+      }
+      if (const CellBits* hit = tile->hit.find(block)) collect(tile->key, block, *hit, kHit);
+      if (const CellBits* beside = tile->beside.find(block)) collect(tile->key, block, *beside, kBeside);
+    }
+    if (tile->passed) tile->passed->fill(0);
   }
   marks.clear();
   return cells;
