@@ -1,0 +1,137 @@
+#include "io/camera_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace thermovox {
+namespace fs = std::filesystem;
+namespace {
+
+using std::chrono::milliseconds;
+
+bool isHidden(const fs::path& path) {
+  return path.filename().native().starts_with('.');
+}
+
+bool isImage(const fs::path& file) {
+  constexpr std::array<std::string_view, 7> endings{".jpg", ".jpeg", ".tif", ".tiff", ".seq", ".csq", ".fff"};
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo), of a file's content; nullopt when it cannot be read.
+std::optional<std::uint64_t> digestOf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::uint64_t digest = 0xcbf29ce484222325U;
+  std::array<char, 65536> buffer;
+  while (stream) {
+    stream.read(buffer.data(), buffer.size());
+    for (std::streamsize i = 0; i < stream.gcount(); ++i) {
+      digest ^= static_cast<unsigned char>(buffer[static_cast<std::size_t>(i)]);
+      digest *= 0x100000001b3U;
+    }
+  }
+  if (!stream.eof()) return std::nullopt;
+  return digest;
+}
+
+}  // namespace
+
+CameraFolder::CameraFolder(fs::path folder, const Options& options)
+    : folder_(std::move(folder)), options_(options), events_(options.events) {}
+
+std::optional<fs::path> CameraFolder::next(milliseconds longest) {
+  const Clock::time_point end = Clock::now() + longest;
+  FolderEvents::Changes changes;
+  for (;;) {
+    look(changes);
+    for (auto image = nextReady(); image != waiting_.end(); image = nextReady()) {
+      const auto [name, waiting] = *image;
+      waiting_.erase(image);
+      if (give(name, waiting.state)) return folder_ / name;
+    }
+    const auto left = std::chrono::ceil<milliseconds>(end - Clock::now());
+    if (left.count() <= 0) return std::nullopt;
+    changes = events_.wait(std::min(left, options_.look_every));
+  }
+}
+
+void CameraFolder::passOver() {
+  look({});
+  for (const auto& [name, waiting] : std::exchange(waiting_, {})) give(name, waiting.state);
+}
+
+void CameraFolder::look(const FolderEvents::Changes& changes) {
+  WaitingImages still_there;
+  std::error_code error;
+  looked_ = Clock::now();
+  events_.watch(folder_);
+  for (fs::recursive_directory_iterator entry(folder_, fs::directory_options::skip_permission_denied, error);
+       !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    std::error_code unknown;
+    if (isHidden(entry->path())) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_directory(unknown)) {
+      events_.watch(entry->path());
+    } else if (isImage(entry->path())) {
+      lookAt(entry->path(), changes, still_there);
+    }
+  }
+  waiting_ = std::move(still_there);
+}
+
+void CameraFolder::lookAt(const fs::path& file, const FolderEvents::Changes& changes,
+                          WaitingImages& still_there) {
+  std::error_code unknown;
+  if (!fs::is_regular_file(file, unknown)) return;
+  State state;
+  state.size = fs::file_size(file, unknown);
+  if (unknown || state.size == 0) return;
+  state.changed = fs::last_write_time(file, unknown);
+  if (unknown) return;
+  const std::string name = file.lexically_relative(folder_).string();
+  const auto given = given_.find(name);
+  if (given != given_.end() && given->second.state == state) return;
+  const auto before = waiting_.find(name);
+  const bool is_still = before != waiting_.end() && before->second.state == state;
+  Waiting waiting = is_still ? before->second : Waiting{state, looked_, false};
+  if (const auto change = changes.find(file); change != changes.end()) {
+    waiting.written = change->second == FolderEvents::Change::written;
+    if (!waiting.written) waiting.since = looked_;
+  }
+  still_there.emplace(name, waiting);
+}
+
+bool CameraFolder::isReady(const Waiting& image) const {
+  return image.written || looked_ - image.since >= options_.settled;
+}
+
+CameraFolder::WaitingImages::iterator CameraFolder::nextReady() {
+  auto best = waiting_.end();
+  for (auto image = waiting_.begin(); image != waiting_.end(); ++image) {
+    if (!isReady(image->second)) continue;
+    const bool newest_first = options_.order == Order::newest_first;
+    const bool is_before = best != waiting_.end() && image->second.state.changed < best->second.state.changed;
+    const bool is_after = best != waiting_.end() && image->second.state.changed > best->second.state.changed;
+    if (best == waiting_.end() || (newest_first ? is_after : is_before)) best = image;
+  }
+  return best;
+}
+
+bool CameraFolder::give(const std::string& name, const State& state) {
+  const std::optional<std::uint64_t> digest = digestOf(folder_ / name);
+  if (!digest) return false;  // gone again; it is looked at anew when it is back
+  Given& given = given_[name];
+  const bool is_new = given.state.size == 0 || given.digest != *digest;
+  given = {state, *digest};
+  return is_new;
+}
+
+}  // namespace thermovox

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "io/folder_events.hpp"
+
+namespace thermovox {
+
+/// The images of a camera as they appear in its folder and the folders in it (DCIM/100FLIR, 101FLIR, ...):
+/// each once, when it is wholly written. The folder may vanish and come back, as a card does that is
+/// unmounted and mounted again, with other times of change (a card's clock has no time zone): what was given
+/// is not given again. A file whose content has changed is a new image.
+class CameraFolder {
+ public:
+  enum class Order {
+    oldest_first,  ///< in the order of their times of change
+    newest_first,  ///< of those that are there the newest; the others follow
+  };
+  struct Options {
+    Order order = Order::oldest_first;
+    /// A file is wholly written when the kernel says that it was closed; where that is not heard, when its
+    /// size and time of change have stood still so long.
+    std::chrono::milliseconds settled = std::chrono::milliseconds(2000);
+    /// How often to look where the kernel says nothing.
+    std::chrono::milliseconds look_every = std::chrono::milliseconds(500);
+    FolderEvents::Source events = FolderEvents::Source::kernel;
+  };
+
+  /// The folder need not be there yet.
+  CameraFolder(std::filesystem::path folder, const Options& options);
+
+  /// The next image (.jpg .jpeg .tif .tiff .seq .csq .fff, in any case of letters; nothing hidden, nothing
+  /// empty). Waits for one, at most so long.
+  [[nodiscard]] std::optional<std::filesystem::path> next(std::chrono::milliseconds longest);
+  /// Takes all that is there now for given.
+  void passOver();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct State {
+    std::uintmax_t size = 0;
+    std::filesystem::file_time_type changed;
+    friend bool operator==(const State& a, const State& b) = default;
+  };
+  struct Given {
+    State state;
+    std::uint64_t digest = 0;  ///< of its content
+  };
+  struct Waiting {
+    State state;
+    Clock::time_point since;  ///< it stands still
+    bool written = false;     ///< as the kernel says
+  };
+  using WaitingImages = std::map<std::string, Waiting>;
+
+  void look(const FolderEvents::Changes& changes);
+  void lookAt(const std::filesystem::path& file, const FolderEvents::Changes& changes,
+              WaitingImages& still_there);
+  [[nodiscard]] bool isReady(const Waiting& image) const;
+  /// Of those that are ready the next by order; the end when none is.
+  [[nodiscard]] WaitingImages::iterator nextReady();
+  /// Whether this content was not given under this name before.
+  bool give(const std::string& name, const State& state);
+
+  std::filesystem::path folder_;
+  Options options_;
+  FolderEvents events_;
+  Clock::time_point looked_;            ///< last
+  WaitingImages waiting_;               ///< by path in the folder
+  std::map<std::string, Given> given_;  ///< likewise
+};
+
+}  // namespace thermovox
