@@ -65,7 +65,7 @@ std::uint16_t swapped(std::uint16_t count) {
 struct Roughness {
   std::uint64_t as_it_is = 0;
   std::uint64_t swapped = 0;
-  bool tells = false;  ///< both bytes take many values; otherwise the steps say nothing about their order
+  bool tells = false;  ///< both bytes vary; otherwise the steps say nothing about their order
 };
 
 Roughness roughnessOf(const CountsPicture& picture) {
@@ -81,7 +81,7 @@ Roughness roughnessOf(const CountsPicture& picture) {
     roughness.as_it_is += static_cast<std::uint64_t>(std::abs(count - before));
     roughness.swapped += static_cast<std::uint64_t>(std::abs(swapped(count) - swapped(before)));
   }
-  roughness.tells = std::max(high.count(), low.count()) >= 32;
+  roughness.tells = std::min(high.count(), low.count()) >= 2 && std::max(high.count(), low.count()) >= 32;
   return roughness;
 }
 
