@@ -77,16 +77,16 @@ void checkScale(const ImageArgs& args, const RawThermalImage& image) {
   }
 }
 
-WrittenTags tagsOf(const RawThermalImage& image, bool counts) {
-  WrittenTags tags{.make = image.metadata.make, .model = image.metadata.model};
-  if (!counts) return tags;
+TiffPlan planOf(const RawThermalImage& image, int pages, bool counts) {
+  TiffPlan plan{.pages = pages, .make = image.metadata.make, .model = image.metadata.model};
+  if (!counts) return plan;
   const auto* t_linear = std::get_if<TLinear>(&image.rule);
   if (t_linear == nullptr) {
-    tags.t_linear_gain = 0.0;
+    plan.t_linear_gain = 0.0;
   } else if (t_linear->celsius_offset == kAbsoluteZero) {
-    tags.t_linear_gain = t_linear->celsius_per_count;
+    plan.t_linear_gain = t_linear->celsius_per_count;
   }
-  return tags;
+  return plan;
 }
 
 /// "23.5 to 25.3 C, mean 24.2", and what is not as it should be.
@@ -120,7 +120,7 @@ std::string writeFrames(const ImageArgs& args, ThermalRecording& recording, int 
       checkScale(args, raw);
       warnAbout(args, raw);
       if (isTiff(args.out))
-        tiff.emplace(args.out, args.existing(), last - first + 1, tagsOf(raw, args.counts));
+        tiff.emplace(args.out, args.existing(), planOf(raw, last - first + 1, args.counts));
       summary = fmt::format("{} x {}", raw.width, raw.height);
     }
     if (args.counts) {

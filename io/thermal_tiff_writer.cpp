@@ -52,24 +52,23 @@ struct ThermalTiffWriter::Page {
 
 namespace {
 
-/// In the order of their tags. The pixels' place is filled in where the directory's size is known.
-std::vector<Field> fieldsOf(std::uint32_t width, std::uint32_t height, bool floating,
-                            const WrittenTags& tags) {
+/// In the order of their plan. The pixels' place is filled in where the directory's size is known.
+std::vector<Field> fieldsOf(std::uint32_t width, std::uint32_t height, bool floating, const TiffPlan& plan) {
   const unsigned bits = floating ? 32 : 16;
   std::vector<Field> fields{{256, FieldType::number32, width},
                             {257, FieldType::number32, height},
                             {258, FieldType::number16, bits},
                             {259, FieldType::number16, 1},
                             {262, FieldType::number16, 1}};
-  if (!tags.make.empty()) fields.push_back({271, FieldType::text, 0, tags.make + '\0'});
-  if (!tags.model.empty()) fields.push_back({272, FieldType::text, 0, tags.model + '\0'});
+  if (!plan.make.empty()) fields.push_back({271, FieldType::text, 0, plan.make + '\0'});
+  if (!plan.model.empty()) fields.push_back({272, FieldType::text, 0, plan.model + '\0'});
   fields.push_back({273, FieldType::number64, 0});
   fields.push_back({277, FieldType::number16, 1});
   fields.push_back({278, FieldType::number32, height});
   fields.push_back({279, FieldType::number64, std::uint64_t{width} * height * bits / 8});
   fields.push_back({305, FieldType::text, 0, std::string("thermovox") + '\0'});
   fields.push_back({339, FieldType::number16, floating ? 3U : 1U});
-  if (tags.t_linear_gain) fields.push_back({700, FieldType::bytes, 0, xmpPacket(*tags.t_linear_gain)});
+  if (plan.t_linear_gain) fields.push_back({700, FieldType::bytes, 0, xmpPacket(*plan.t_linear_gain)});
   return fields;
 }
 
@@ -115,9 +114,8 @@ std::string directoryOf(std::vector<Field> fields, std::uint64_t place, bool las
 
 }  // namespace
 
-ThermalTiffWriter::ThermalTiffWriter(const std::filesystem::path& path, Existing existing, int pages,
-                                     WrittenTags tags)
-    : name_(path.string()), file_(path, existing), pages_left_(pages), tags_(std::move(tags)) {}
+ThermalTiffWriter::ThermalTiffWriter(const std::filesystem::path& path, Existing existing, TiffPlan plan)
+    : name_(path.string()), file_(path, existing), plan_(std::move(plan)), pages_left_(plan_.pages) {}
 
 void ThermalTiffWriter::add(const ThermalImage& image) {
   Page page{static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height), true, {}};
@@ -138,9 +136,9 @@ void ThermalTiffWriter::write(const Page& page) {
   if (place_ == 0) {
     // Half of what a TIFF can address leaves room for frames that are larger than the first.
     constexpr std::uint64_t enough = std::uint64_t{1} << 31;
-    big_ = static_cast<std::uint64_t>(pages_left_) * (page.pixels.size() + 1024) > enough;
+    plan_.big = plan_.big || static_cast<std::uint64_t>(pages_left_) * (page.pixels.size() + 1024) > enough;
     std::string header = "II";
-    if (big_) {
+    if (plan_.big) {
       for (const int number : {43, 8, 0}) appendLittleEndian(header, static_cast<std::uint16_t>(number));
       appendLittleEndian(header, std::uint64_t{16});
     } else {
@@ -151,12 +149,12 @@ void ThermalTiffWriter::write(const Page& page) {
     place_ = header.size();
   }
   --pages_left_;
-  const std::string directory =
-      directoryOf(fieldsOf(page.width, page.height, page.floating, tags_), place_, pages_left_ == 0, big_);
+  const std::string directory = directoryOf(fieldsOf(page.width, page.height, page.floating, plan_), place_,
+                                            pages_left_ == 0, plan_.big);
   file_.write(directory);
   file_.write(page.pixels);
   place_ += directory.size() + page.pixels.size();
-  if (!big_ && place_ > std::numeric_limits<std::uint32_t>::max())
+  if (!plan_.big && place_ > std::numeric_limits<std::uint32_t>::max())
     throw DataError(name_ + ": is larger than 4 GB, expected pages of about the size of the first");
 }
 

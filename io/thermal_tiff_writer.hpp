@@ -11,11 +11,13 @@
 
 namespace thermovox {
 
-/// What a written TIFF says of its camera and of its counts.
-struct WrittenTags {
+/// What a TIFF is to be, and what it says of its camera and of its counts.
+struct TiffPlan {
+  int pages = 1;
   std::string make, model;
   /// Kelvin a count; 0 says that the counts are no temperatures. Floats and other scales go without.
   std::optional<double> t_linear_gain;
+  bool big = false;  ///< a BigTIFF also where a TIFF would do
 };
 
 /// Writes a TIFF page by page, uncompressed, little endian: 32-bit floats in Celsius or counts of 16 bits. It
@@ -23,8 +25,8 @@ struct WrittenTags {
 /// not at all.
 class ThermalTiffWriter {
  public:
-  /// `pages` is how many will follow. Throws DataError as AtomicFile does.
-  ThermalTiffWriter(const std::filesystem::path& path, Existing existing, int pages, WrittenTags tags);
+  /// Throws DataError as AtomicFile does.
+  ThermalTiffWriter(const std::filesystem::path& path, Existing existing, TiffPlan plan);
 
   /// Throws DataError when the pages grow so much that they are more than the file can hold.
   void add(const ThermalImage& image);
@@ -37,10 +39,9 @@ class ThermalTiffWriter {
 
   std::string name_;
   AtomicFile file_;
+  TiffPlan plan_;
   int pages_left_ = 0;
-  WrittenTags tags_;
   std::uint64_t place_ = 0;  ///< bytes written
-  bool big_ = false;
 };
 
 }  // namespace thermovox
