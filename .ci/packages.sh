@@ -18,6 +18,8 @@ packages_sanitizers=(clang libclang-rt-14-dev llvm-14)
 packages_lint=(cmake clang-format-14 shellcheck)
 # clang-tidy, for the preset `tidy` (by hand).
 packages_tidy=(clang clang-tidy-14)
+# What decoding of thermal images is compared with, by hand.
+packages_peers=(libimage-exiftool-perl python3-numpy)
 # Programs to look at results with: CloudCompare, octovis, PCL's viewer.
 packages_view=(cloudcompare octovis pcl-tools)
 
