@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "projection/air_path.hpp"
 #include "projection/time.hpp"
 
 namespace thermovox {
@@ -14,6 +15,9 @@ struct ThermalImage {
   int width = 0;
   int height = 0;
   std::vector<float> celsius;
+  /// The air before the camera, of an image whose temperatures are those at distance 0 (a radiometric frame
+  /// of a mission): what a point's own distance makes of them. Null where the temperatures stand as they are.
+  std::shared_ptr<const AirPath> air;
 
   [[nodiscard]] float at(int u, int v) const {
     return celsius[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
