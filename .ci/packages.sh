@@ -7,7 +7,7 @@
 packages_build=(
   g++ cmake ninja-build
   libeigen3-dev libpcl-dev liboctomap-dev libopencv-dev
-  libyaml-cpp-dev libtiff-dev libsqlite3-dev libzstd-dev
+  libyaml-cpp-dev libtiff-dev libcharls-dev libdeflate-dev libsqlite3-dev libzstd-dev
   libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
 )
 # What the tests and benchmarks need besides. ccache and mold are used where they are found.

@@ -8,14 +8,13 @@
 #include <optional>
 #include <string>
 
+#include "apps/image_info.hpp"
 #include "apps/verbs.hpp"
 #include "io/csv.hpp"
 #include "io/input_file.hpp"
 #include "io/mission_folder.hpp"
 #include "io/rig_file.hpp"
 #include "io/station.hpp"
-#include "io/thermal_image_file.hpp"
-#include "io/thermal_tiff.hpp"
 #include "projection/error.hpp"
 #include "projection/kind_names.hpp"
 
@@ -40,7 +39,7 @@ bool startsWith(const std::string& head, std::string_view magic) {
 bool looksLikeImage(const std::string& head) {
   using namespace std::string_view_literals;
   constexpr std::array magics{"II*\0"sv,   "MM\0*"sv, "II+\0"sv, "MM\0+"sv, "\xFF\xD8"sv,
-                              "\x89PNG"sv, "BM"sv,    "FFF\0"sv, "GIF8"sv};
+                              "\x89PNG"sv, "BM"sv,    "FFF\0"sv, "AFF\0"sv, "GIF8"sv};
   return std::any_of(magics.begin(), magics.end(),
                      [&](std::string_view magic) { return startsWith(head, magic); });
 }
@@ -65,48 +64,6 @@ Kind kindOf(const fs::path& thing) {
   throw DataError(
       thing.string() +
       ": is nothing that thermovox knows, expected an image, mission, rig, captures, bag or station");
-}
-
-/// Minimum, mean and maximum of the known pixels; empty when there are none.
-Json statisticsOf(const ThermalImage& image) {
-  double sum = 0.0;
-  std::size_t known = 0;
-  float low = std::numeric_limits<float>::infinity();
-  float high = -low;
-  for (const float celsius : image.celsius) {
-    if (!std::isfinite(celsius)) continue;
-    sum += celsius;
-    ++known;
-    low = std::min(low, celsius);
-    high = std::max(high, celsius);
-  }
-  if (known == 0) return Json::object();
-  return {{"min", low}, {"mean", sum / static_cast<double>(known)}, {"max", high}};
-}
-
-constexpr TLinear kCountsAsTheyAre{1.0, 0.0};
-
-Json imageInfo(const fs::path& file) {
-  Json json{{"kind", "image"}};
-  try {
-    const ThermalImage image = readThermalImage(file, 0, kCountsAsTheyAre);
-    json["radiometric"] = true;
-    json["width"] = image.width;
-    json["height"] = image.height;
-    json["pages"] = thermalTiffPages(file);
-    if (thermalTiffPixels(file) == ThermalPixels::counts) {
-      json["counts"] = statisticsOf(image);
-      json["note"] = "Celsius needs the scale of the rig: celsius_per_count and celsius_offset";
-    } else {
-      json["unknown_pixels"] = std::count_if(image.celsius.begin(), image.celsius.end(),
-                                             [](float c) { return !std::isfinite(c); });
-      json.update(statisticsOf(image));
-    }
-  } catch (const DataError& error) {
-    json["radiometric"] = false;
-    json["reason"] = error.what();
-  }
-  return json;
 }
 
 Json cameraInfo(const Camera& camera) {

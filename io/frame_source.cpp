@@ -6,9 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "io/celsius_decoder.hpp"
 #include "io/input_file.hpp"
 #include "io/stamped_files.hpp"
-#include "io/thermal_image_file.hpp"
+#include "io/thermal_recording.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -47,8 +48,7 @@ class ListedFrames final : public FrameSource {
   std::optional<ThermalFrame> next() override {
     const std::optional<StampedFile> row = list_.next();
     if (!row) return std::nullopt;
-    auto image = std::make_shared<const ThermalImage>(
-        readThermalImage(row->file, row->page, camera_.t_linear, row->place));
+    auto image = std::make_shared<const ThermalImage>(read(*row));
     if (image->width != camera_.camera.width() || image->height != camera_.camera.height()) {
       throw DataError(row->file.string() + ": is " + std::to_string(image->width) + " x " +
                       std::to_string(image->height) + " pixels, expected " +
@@ -63,10 +63,29 @@ class ListedFrames final : public FrameSource {
   Duration period() const override { return period_; }
 
  private:
+  /// The image of a row. Rows that follow each other are often frames of one file, which stays open.
+  ThermalImage read(const StampedFile& row) {
+    if (!recording_ || row.file != opened_) {
+      recording_ = openThermalRecording(row.file, {.t_linear = camera_.t_linear, .named_by = row.place});
+      opened_ = row.file;
+    }
+    const RawThermalImage raw = recording_->read(row.page);
+    const auto* parameters = std::get_if<RadiometricParameters>(&raw.rule);
+    if (parameters == nullptr) return decoder_.decode(raw, row.file.string());
+    ThermalImage image = decoder_.decode(raw, row.file.string(), {.distance = 0.0});
+    if (!air_ || !(air_->parameters() == *parameters)) air_ = std::make_shared<const AirPath>(*parameters);
+    image.air = air_;
+    return image;
+  }
+
   Duration period_;
   StampedFiles list_;
   Duration time_offset_;
   ThermalCamera camera_;
+  std::filesystem::path opened_;
+  std::unique_ptr<ThermalRecording> recording_;
+  CelsiusDecoder decoder_;
+  std::shared_ptr<const AirPath> air_;  ///< of the last frame with parameters of its own
 };
 
 }  // namespace

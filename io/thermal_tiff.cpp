@@ -14,15 +14,16 @@
 #include <utility>
 #include <vector>
 
+#include "io/byte_order.hpp"
 #include "io/input_file.hpp"
+#include "io/pixel_claim.hpp"
+#include "io/tiff_scale.hpp"
+#include "io/xmp.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
 namespace {
 
-constexpr std::uint64_t kMostPixels = 100'000'000;
-/// No codec packs pixels tighter than about this, so a small file that claims a large image is damaged.
-constexpr std::uint64_t kTightestPacking = 10'000;
 constexpr tmsize_t kLargestAllocation = tmsize_t{1} << 30;
 
 /// A TIFF held in memory, as libtiff's callbacks want it.
@@ -95,7 +96,7 @@ struct Layout {
 /// An open TIFF whose complaints become DataErrors and are never printed.
 class TiffFile {
  public:
-  explicit TiffFile(const std::filesystem::path& path) : name_(path.string()) {
+  TiffFile(const std::filesystem::path& path, std::string name) : name_(std::move(name)) {
     static_cast<void>(openInput(path));  // says why a file cannot be read
     std::error_code no_size;
     size_ = std::filesystem::file_size(path, no_size);
@@ -113,15 +114,17 @@ class TiffFile {
   TiffFile& operator=(const TiffFile&) = delete;
 
   [[nodiscard]] int pages() { return static_cast<int>(TIFFNumberOfDirectories(tiff_.get())); }
-  [[nodiscard]] ThermalPixels pixels() {
-    return layout().floating ? ThermalPixels::celsius : ThermalPixels::counts;
-  }
-  ThermalImage read(int page, const TLinear& t_linear);
+  [[nodiscard]] const std::string& name() const { return name_; }
+  void goTo(int page);
+  /// Pixels, counts or floats, of the current page.
+  [[nodiscard]] RawThermalImage read();
+  [[nodiscard]] std::string text(ttag_t tag) const;
+  /// The XMP packet of the current page; empty where it has none.
+  [[nodiscard]] std::string xmp() const;
 
  private:
   [[nodiscard]] std::unique_ptr<TIFFOpenOptions, FreeOptions> options();
   [[nodiscard]] Layout layout();
-  void goTo(int page);
   void readStrips(const Layout& layout, std::vector<std::byte>& pixels);
   void readTiles(const Layout& layout, std::vector<std::byte>& pixels);
   [[noreturn]] void fail(const std::string& what) const;
@@ -146,12 +149,25 @@ void TiffFile::fail(const std::string& what) const {
 }
 
 void TiffFile::goTo(int page) {
-  if (page == 0) return;  // open stands there
-  if (page < 0 || TIFFSetDirectory(tiff_.get(), static_cast<tdir_t>(page)) == 0) {
-    const int count = pages();
-    if (page >= 0 && page < count) fail("page " + std::to_string(page) + " cannot be read");
-    fail("has no page " + std::to_string(page) + ", expected 0 to " + std::to_string(count - 1));
-  }
+  const int current = static_cast<int>(TIFFCurrentDirectory(tiff_.get()));
+  if (page == current) return;
+  // libtiff finds any other page from the first one on.
+  const int found = page == current + 1 ? TIFFReadDirectory(tiff_.get())
+                                        : TIFFSetDirectory(tiff_.get(), static_cast<tdir_t>(page));
+  if (found == 0) fail("page " + std::to_string(page) + " cannot be read");
+}
+
+std::string TiffFile::text(ttag_t tag) const {
+  const char* text = nullptr;
+  if (TIFFGetField(tiff_.get(), tag, &text) != 1 || text == nullptr) return "";
+  return textAt(std::as_bytes(std::span(text, std::strlen(text))), 0, 256);
+}
+
+std::string TiffFile::xmp() const {
+  std::uint32_t size = 0;
+  const char* packet = nullptr;
+  if (TIFFGetField(tiff_.get(), TIFFTAG_XMLPACKET, &size, &packet) != 1 || packet == nullptr) return "";
+  return {packet, size};
 }
 
 Layout TiffFile::layout() {
@@ -170,11 +186,7 @@ Layout TiffFile::layout() {
          (format == SAMPLEFORMAT_INT ? " with sign" : "") +
          " a pixel, expected one of 16 bits (counts) or a 32-bit float (Celsius)");
   }
-  const std::uint64_t pixels = std::uint64_t{layout.width} * layout.height;
-  if (pixels == 0 || pixels > kMostPixels || pixels * layout.sampleSize() / kTightestPacking > size_) {
-    fail("claims " + std::to_string(layout.width) + " x " + std::to_string(layout.height) + " pixels in " +
-         std::to_string(size_) + " bytes, expected a thermal image");
-  }
+  checkClaim({layout.width, layout.height, layout.sampleSize(), size_}, name_ + ":");
   return layout;
 }
 
@@ -198,11 +210,8 @@ void TiffFile::readTiles(const Layout& layout, std::vector<std::byte>& pixels) {
   std::uint32_t tile_height = 0;
   TIFFGetField(tiff_.get(), TIFFTAG_TILEWIDTH, &tile_width);
   TIFFGetField(tiff_.get(), TIFFTAG_TILELENGTH, &tile_height);
+  checkClaim({tile_width, tile_height, layout.sampleSize(), size_}, name_ + ": a tile");
   const std::uint64_t tile_pixels = std::uint64_t{tile_width} * tile_height;
-  if (tile_pixels == 0 || tile_pixels > kMostPixels ||
-      tile_pixels * layout.sampleSize() / kTightestPacking > size_) {
-    fail("claims tiles of " + std::to_string(tile_width) + " x " + std::to_string(tile_height) + " pixels");
-  }
   const std::size_t sample = layout.sampleSize();
   std::vector<std::byte> tile(tile_pixels * sample);
   for (std::uint64_t y = 0; y < layout.height; y += tile_height) {
@@ -223,56 +232,111 @@ void TiffFile::readTiles(const Layout& layout, std::vector<std::byte>& pixels) {
   }
 }
 
-/// Celsius of the pixels in the byte order of this machine.
-std::vector<float> decode(const Layout& layout, const std::vector<std::byte>& pixels,
-                          const TLinear& t_linear) {
-  std::vector<float> celsius(pixels.size() / layout.sampleSize());
-  for (std::size_t i = 0; i < celsius.size(); ++i) {
-    if (layout.floating) {
-      float value = 0.0F;
-      std::memcpy(&value, pixels.data() + i * sizeof value, sizeof value);
-      const bool possible = std::isfinite(value) && value > kAbsoluteZero;
-      celsius[i] = possible ? value : std::numeric_limits<float>::quiet_NaN();
-    } else {
-      std::uint16_t counts = 0;
-      std::memcpy(&counts, pixels.data() + i * sizeof counts, sizeof counts);
-      celsius[i] = t_linear.celsius(counts);
-    }
+/// Pixels in the byte order of this machine as counts or temperatures.
+void putPixels(const Layout& layout, const std::vector<std::byte>& pixels, RawThermalImage& image) {
+  const std::size_t count = pixels.size() / layout.sampleSize();
+  if (!layout.floating) {
+    image.counts.resize(count);
+    std::memcpy(image.counts.data(), pixels.data(), count * sizeof(std::uint16_t));
+    return;
   }
-  return celsius;
+  image.celsius.resize(count);
+  std::memcpy(image.celsius.data(), pixels.data(), count * sizeof(float));
+  for (float& celsius : image.celsius) {
+    const bool possible = std::isfinite(celsius) && celsius > kAbsoluteZero;
+    if (!possible) celsius = std::numeric_limits<float>::quiet_NaN();
+  }
 }
 
-ThermalImage TiffFile::read(int page, const TLinear& t_linear) {
-  goTo(page);
-  const Layout page_layout = layout();
-  std::vector<std::byte> pixels(std::size_t{page_layout.width} * page_layout.height *
-                                page_layout.sampleSize());
+RawThermalImage TiffFile::read() {
+  const Layout page = layout();
+  std::vector<std::byte> pixels(std::size_t{page.width} * page.height * page.sampleSize());
   if (TIFFIsTiled(tiff_.get()) != 0) {
-    readTiles(page_layout, pixels);
+    readTiles(page, pixels);
   } else {
-    readStrips(page_layout, pixels);
+    readStrips(page, pixels);
   }
-  return {static_cast<int>(page_layout.width), static_cast<int>(page_layout.height),
-          decode(page_layout, pixels, t_linear)};
+  RawThermalImage image{static_cast<int>(page.width), static_cast<int>(page.height)};
+  putPixels(page, pixels, image);
+  return image;
 }
+
+/// The tags of one page that say something about camera and scale.
+struct PageTags {
+  std::string make, model, serial, software, time, xmp;
+};
+
+class ThermalTiff final : public ThermalRecording {
+ public:
+  template <typename Source>
+  ThermalTiff(const RecordingOptions& options, Source&& source, std::string name)
+      : tiff_(std::forward<Source>(source), std::move(name)),
+        t_linear_(options.t_linear),
+        first_(tagsOfPage()) {
+    frames_ = tiff_.pages();
+  }
+
+  int frames() const override { return frames_; }
+
+  RawThermalImage read(int frame) override {
+    if (frame < 0 || frame >= frames_) {
+      throw DataError(tiff_.name() + ": has no page " + std::to_string(frame) + ", expected 0 to " +
+                      std::to_string(frames_ - 1));
+    }
+    tiff_.goTo(frame);
+    RawThermalImage image = tiff_.read();
+    const PageTags tags = tagsOfPage();
+    image.metadata = metadataOf(tags);
+    if (image.counts.empty()) return image;
+    // In a recording only the first page may say what camera it is.
+    const TiffEvidence evidence{.option = t_linear_,
+                                .xmp = tags.xmp.empty() ? first_.xmp : tags.xmp,
+                                .make = tags.make.empty() ? first_.make : tags.make,
+                                .model = image.metadata.model};
+    ScaleDecision decision = decideScale(evidence, image.counts);
+    image.rule = std::move(decision.rule);
+    image.rule_source = decision.source;
+    return image;
+  }
+
+ private:
+  PageTags tagsOfPage() const {
+    return {
+        tiff_.text(TIFFTAG_MAKE),     tiff_.text(TIFFTAG_MODEL),    tiff_.text(TIFFTAG_CAMERASERIALNUMBER),
+        tiff_.text(TIFFTAG_SOFTWARE), tiff_.text(TIFFTAG_DATETIME), tiff_.xmp()};
+  }
+
+  ThermalMetadata metadataOf(const PageTags& tags) const {
+    const auto either = [](const std::string& own, const std::string& first) {
+      return own.empty() ? first : own;
+    };
+    ThermalMetadata metadata;
+    metadata.format = "TIFF";
+    metadata.make = either(tags.make, first_.make);
+    metadata.model = either(tags.model, first_.model);
+    metadata.serial = either(tags.serial, first_.serial);
+    metadata.software = either(tags.software, first_.software);
+    metadata.time = either(tags.time, first_.time);
+    metadata.xmp = xmpFacts(either(tags.xmp, first_.xmp));
+    return metadata;
+  }
+
+  TiffFile tiff_;
+  std::optional<TLinear> t_linear_;
+  PageTags first_;
+  int frames_ = 0;
+};
 
 }  // namespace
 
-ThermalImage readThermalTiff(const std::filesystem::path& file, int page, const TLinear& t_linear) {
-  return TiffFile(file).read(page, t_linear);
+std::unique_ptr<ThermalRecording> openThermalTiff(const std::filesystem::path& file,
+                                                  const RecordingOptions& options) {
+  return std::make_unique<ThermalTiff>(options, file, file.string());
 }
 
-ThermalImage readThermalTiff(std::span<const std::byte> bytes, const std::string& name, int page,
-                             const TLinear& t_linear) {
-  return TiffFile(bytes, name).read(page, t_linear);
-}
-
-ThermalPixels thermalTiffPixels(const std::filesystem::path& file) {
-  return TiffFile(file).pixels();
-}
-
-int thermalTiffPages(const std::filesystem::path& file) {
-  return TiffFile(file).pages();
+std::unique_ptr<ThermalRecording> openThermalTiff(std::span<const std::byte> bytes, const std::string& name,
+                                                  const RecordingOptions& options) {
+  return std::make_unique<ThermalTiff>(options, bytes, name);
 }
 
 }  // namespace thermovox

@@ -7,7 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "io/thermal_image_file.hpp"
+#include "io/celsius_decoder.hpp"
+#include "io/thermal_recording.hpp"
 #include "projection/error.hpp"
 #include "tests/io/tiff_writer.hpp"
 #include "tests/support/recordings.hpp"
@@ -22,6 +23,16 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr TLinear kDuoR{};
+
+/// A page, its counts by the scale of the user's option.
+template <typename File>
+ThermalImage decode(const File& file, int page, const TLinear& t_linear) {
+  return CelsiusDecoder().decode(openThermalRecording(file, {.t_linear = t_linear})->read(page), "image");
+}
+
+int pagesOf(const std::filesystem::path& file) {
+  return openThermalRecording(file)->frames();
+}
 
 TiffPages<std::uint16_t> randomCounts(int width, int height, int pages) {
   std::mt19937_64 random(5);
@@ -59,42 +70,46 @@ std::vector<TiffForm> forms() {
           {.tile = 32, .compression = 8, .predictor = 2, .big_endian = true}};
 }
 
-TEST(ReadThermalTiff, ReadsCountsInEveryLayout) {
+TEST(ThermalTiff, ReadsCountsInEveryLayout) {
   const test::TestFolder folder;
   const auto counts = randomCounts(37, 29, 1);  // no multiple of strips or tiles
   for (std::size_t i = 0; i < forms().size(); ++i) {
     SCOPED_TRACE(testing::Message() << "form " << i);
     const auto file = folder / (std::to_string(i) + ".tiff");
     writeTiff(file, counts, forms()[i]);
-    expectCounts(readThermalTiff(file, 0, kDuoR), counts, 0);
+    expectCounts(decode(file, 0, kDuoR), counts, 0);
     const std::string bytes = test::bytesOf(file);
-    expectCounts(readThermalTiff(std::as_bytes(std::span(bytes)), "memory", 0, kDuoR), counts, 0);
-    expectCounts(readThermalImage(file, 0, kDuoR), counts, 0);
+    const auto in_memory =
+        openThermalRecording(std::as_bytes(std::span(bytes)), "memory", {.t_linear = kDuoR});
+    expectCounts(CelsiusDecoder().decode(in_memory->read(0), "memory"), counts, 0);
   }
 }
 
-TEST(ReadThermalTiff, ReadsEveryPage) {
+TEST(ThermalTiff, ReadsEveryPage) {
   const test::TestFolder folder;
   const auto counts = randomCounts(16, 12, 5);
   writeTiff(folder / "video.tiff", counts, {.compression = 5});
-  EXPECT_EQ(thermalTiffPages(folder / "video.tiff"), 5);
-  for (int page = 0; page < 5; ++page)
-    expectCounts(readThermalTiff(folder / "video.tiff", page, kDuoR), counts, page);
+  EXPECT_EQ(pagesOf(folder / "video.tiff"), 5);
+  const auto video = openThermalRecording(folder / "video.tiff", {.t_linear = kDuoR});
+  for (const int page : {0, 1, 2, 3, 4, 0, 3, 3, 1}) {
+    expectCounts(decode(folder / "video.tiff", page, kDuoR), counts, page);
+    expectCounts(CelsiusDecoder().decode(video->read(page), "image"), counts, page);
+  }
   for (const int page : {5, -1, 1 << 20}) {
     EXPECT_THAT(
-        messageOf<DataError>([&] { static_cast<void>(readThermalTiff(folder / "video.tiff", page, kDuoR)); }),
+        messageOf<DataError>([&] { static_cast<void>(decode(folder / "video.tiff", page, kDuoR)); }),
         AllOf(HasSubstr("video.tiff: has no page " + std::to_string(page)), HasSubstr("expected 0 to 4")));
   }
 }
 
-TEST(ReadThermalTiff, ReadsFloatsAsCelsius) {
+TEST(ThermalTiff, ReadsFloatsAsCelsius) {
   const test::TestFolder folder;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const TiffPages<float> celsius{3, 2, {{0.0F, 21.5F, -40.25F, nan, -9999.0F, INFINITY}}};
   for (const TiffForm& form :
        {TiffForm{}, TiffForm{.compression = 8, .predictor = 3}, TiffForm{.big_endian = true}}) {
     writeTiff(folder / "c.tiff", celsius, form);
-    const ThermalImage image = readThermalTiff(folder / "c.tiff", 0, kDuoR);
+    const ThermalImage image = decode(folder / "c.tiff", 0, kDuoR);
     EXPECT_EQ(image.at(0, 0), 0.0F);
     EXPECT_EQ(image.at(1, 0), 21.5F);
     EXPECT_EQ(image.at(2, 0), -40.25F);
@@ -104,23 +119,23 @@ TEST(ReadThermalTiff, ReadsFloatsAsCelsius) {
   }
 }
 
-TEST(ReadThermalTiff, TakesAnEmptyPixelForUnknown) {
+TEST(ThermalTiff, TakesAnEmptyPixelForUnknown) {
   const test::TestFolder folder;
   writeTiff(folder / "c.tiff", TiffPages<std::uint16_t>{2, 1, {{0, 31730}}});
-  const ThermalImage image = readThermalTiff(folder / "c.tiff", 0, kDuoR);
+  const ThermalImage image = decode(folder / "c.tiff", 0, kDuoR);
   EXPECT_TRUE(std::isnan(image.at(0, 0)));
   EXPECT_FLOAT_EQ(image.at(1, 0), 44.15F);
 }
 
-TEST(ReadThermalTiff, RefusesPicturesByTheirPixels) {
+TEST(ThermalTiff, RefusesPicturesByTheirPixels) {
   const test::TestFolder folder;
   writeTiff(folder / "picture.tiff", TiffPages<std::uint8_t>{2, 2, {{1, 2, 3, 4}}});
   EXPECT_THAT(
-      messageOf<DataError>([&] { static_cast<void>(readThermalTiff(folder / "picture.tiff", 0, kDuoR)); }),
+      messageOf<DataError>([&] { static_cast<void>(decode(folder / "picture.tiff", 0, kDuoR)); }),
       AllOf(HasSubstr("picture.tiff: has 1 sample(s) of 8 bits"), HasSubstr("expected one of 16 bits")));
 }
 
-TEST(ReadThermalTiff, NamesTheFileThatIsTruncated) {
+TEST(ThermalTiff, NamesTheFileThatIsTruncated) {
   const test::TestFolder folder;
   for (const TiffForm& form :
        {TiffForm{}, TiffForm{.compression = 5, .predictor = 2}, TiffForm{.tile = 16}}) {
@@ -131,14 +146,14 @@ TEST(ReadThermalTiff, NamesTheFileThatIsTruncated) {
     for (std::size_t size = 0; size < whole.size(); size += 37) {
       SCOPED_TRACE(testing::Message() << size << " of " << whole.size() << " bytes");
       const auto file = folder.write("cut.tiff", whole.substr(0, size));
-      EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(readThermalTiff(file, 0, kDuoR)); }),
+      EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(decode(file, 0, kDuoR)); }),
                   HasSubstr("cut.tiff: "));
     }
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the library never prints";
   }
 }
 
-TEST(ReadThermalTiff, RefusesAnImageThatItsFileCannotHold) {
+TEST(ThermalTiff, RefusesAnImageThatItsFileCannotHold) {
   const test::TestFolder folder;
   writeTiff(folder / "small.tiff", randomCounts(16, 12, 1), {.rows_per_strip = 12});
   std::string bytes = test::bytesOf(folder / "small.tiff");
@@ -149,15 +164,15 @@ TEST(ReadThermalTiff, RefusesAnImageThatItsFileCannotHold) {
   bytes.replace(entry, 12, std::string("\x00\x01\x04\x00\x01\x00\x00\x00\x00\x00\x00\x7F", 12));
   const auto file = folder.write("absurd.tiff", bytes);
   EXPECT_THAT(
-      messageOf<DataError>([&] { static_cast<void>(readThermalTiff(file, 0, kDuoR)); }),
+      messageOf<DataError>([&] { static_cast<void>(decode(file, 0, kDuoR)); }),
       AllOf(HasSubstr("absurd.tiff: claims 2130706432 x 12 pixels"), HasSubstr("expected a thermal image")));
 }
 
-TEST(ReadThermalImage, RefusesOtherKindsByName) {
+TEST(OpenThermalRecording, RefusesOtherKindsByName) {
   const test::TestFolder folder;
   const auto complaint = [&](std::string_view content) {
     const auto file = folder.write("image.tiff", content);  // whatever its name says
-    return messageOf<DataError>([&] { static_cast<void>(readThermalImage(file, 0, kDuoR)); });
+    return messageOf<DataError>([&] { static_cast<void>(decode(file, 0, kDuoR)); });
   };
   EXPECT_THAT(complaint("\xFF\xD8\xFF\xE0 JFIF"),
               AllOf(HasSubstr("image.tiff: is a JPEG"), HasSubstr("expected")));
@@ -165,12 +180,12 @@ TEST(ReadThermalImage, RefusesOtherKindsByName) {
   EXPECT_THAT(complaint("hello"), HasSubstr("is no image of a known kind"));
   EXPECT_THAT(complaint(""), HasSubstr("is empty"));
   EXPECT_THAT(messageOf<DataError>([&] {
-                static_cast<void>(readThermalImage(folder / "no.tiff", 0, kDuoR, "thermal.csv:3"));
+                static_cast<void>(openThermalRecording(folder / "no.tiff", {.named_by = "thermal.csv:3"}));
               }),
               HasSubstr("no.tiff (named by thermal.csv:3): no such file"));
 }
 
-TEST(ReadThermalTiff, GivesTheCountsOfRealCameras) {
+TEST(ThermalTiff, GivesTheCountsOfRealCameras) {
   THERMOVOX_NEEDS_RECORDINGS();
   const auto folder = *test::recordings() / "thermal";
   const auto reference = nlohmann::json::parse(test::bytesOf(folder / "reference.json")).at("tlinear_tiff");
@@ -178,10 +193,10 @@ TEST(ReadThermalTiff, GivesTheCountsOfRealCameras) {
   constexpr TLinear kCounts{1.0, 0.0};
   for (const auto& [name, expected] : reference.items()) {
     SCOPED_TRACE(name);
-    const ThermalImage image = readThermalTiff(folder / name, 0, kCounts);
+    const ThermalImage image = decode(folder / name, 0, kCounts);
     EXPECT_EQ(image.width, expected.at("wh").at(0).get<int>());
     EXPECT_EQ(image.height, expected.at("wh").at(1).get<int>());
-    EXPECT_EQ(thermalTiffPages(folder / name), expected.at("pages").get<int>());
+    EXPECT_EQ(pagesOf(folder / name), expected.at("pages").get<int>());
     for (const auto& [where, pixel] : expected.at("raw_pixels").items()) {
       const auto xy = pixel.at("xy").get<std::array<int, 2>>();
       EXPECT_EQ(image.at(xy[0], xy[1]), pixel.at("v").get<float>()) << where;
@@ -192,10 +207,10 @@ TEST(ReadThermalTiff, GivesTheCountsOfRealCameras) {
   }
 }
 
-TEST(ReadThermalTiff, ReadsAFileWithoutPhotometricTag) {
+TEST(ThermalTiff, ReadsAFileWithoutPhotometricTag) {
   THERMOVOX_NEEDS_RECORDINGS();
   const ThermalImage image =
-      readThermalTiff(*test::recordings() / "thermal/tiff/Sensefly_Thermomap_9mm.tif", 0, {0.01, -100.0});
+      decode(*test::recordings() / "thermal/tiff/Sensefly_Thermomap_9mm.tif", 0, {0.01, -100.0});
   const auto [coldest, warmest] = std::minmax_element(image.celsius.begin(), image.celsius.end());
   EXPECT_NEAR(*coldest, 15.58, 0.01);  // counts 11558 to 13712
   EXPECT_NEAR(*warmest, 37.12, 0.01);
