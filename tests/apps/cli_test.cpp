@@ -36,6 +36,8 @@ TEST(Program, WrongUsageEndsWithTwoAndIsToldOnStderr) {
                                 "map hall --carve bravely",
                                 "map hall --resolution wide",
                                 "simulate hall",
+                                "simulate hall --laser cloud --frames png",
+                                "simulate hall --laser cloud --humidity 50",
                                 "simulate hall --laser sonar",
                                 "simulate hall --laser beam --seed x",
                                 "export s.tvx",
