@@ -26,18 +26,10 @@ void addRadiometryOptions(CLI::App& verb, RadiometricOverrides& overrides) {
                   "Temperature of a window before the lens [C], likewise");
   verb.add_option("--window-transmission", overrides.window_transmission,
                   "Transmission of that window, 0.05 to 1 (1: no window), likewise");
-  verb.add_option_function<std::string>(
-          "--atmosphere-model",
-          [&overrides](const std::string& word) {
-            const auto model = kModels.find(word);
-            if (model == kModels.end()) {
-              throw UsageError("--atmosphere-model: found '" + word + "', expected half|single");
-            }
-            overrides.model = model->second;
-          },
-          "How the air attenuates: single (one stretch, as the cameras' manuals have it) or half (two halves "
-          "about a window, as Thermimage has it) (default single)")
-      ->type_name("half|single");
+  addChoice(
+      verb, "--atmosphere-model", overrides.model, kModels,
+      "How the air attenuates: single (one stretch, as the cameras' manuals have it) or half (two halves "
+      "about a window, as Thermimage has it) (default single)");
 }
 
 void checkRadiometry(const RadiometricOverrides& overrides) {

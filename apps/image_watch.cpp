@@ -1,0 +1,70 @@
+#include "apps/image_watch.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+#include <string_view>
+
+#include "projection/error.hpp"
+
+namespace thermovox {
+
+namespace fs = std::filesystem;
+namespace {
+
+using std::chrono::milliseconds;
+
+/// DCIM/101FLIR/0007.jpg becomes OUT/DCIM/101FLIR/0007.jpg.tiff: what is called 0007.tiff is another image.
+fs::path outputOf(const fs::path& image, const ImageWatch& watch) {
+  fs::path out = watch.out_folder / image.lexically_relative(watch.folder);
+  out += watch.ending;
+  return out;
+}
+
+void makeFolderOf(const fs::path& file) {
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) throw DataError(file.parent_path().string() + ": cannot be made (" + error.message() + ")");
+}
+
+/// Writes the file of an image that has just appeared; false when there is none to write.
+bool take(const ImageJob& job, const fs::path& image, const fs::path& out) {
+  if (job.existing == Existing::refuse && fs::exists(out)) {
+    spdlog::info("{}: was there before, {} is passed over (--force replaces it)", out.string(),
+                 image.string());
+    return false;
+  }
+  makeFolderOf(out);
+  try {
+    const std::string summary = writeImage(job, image, out);
+    std::cout << out.string() << ": " << summary << std::endl;  // seen at once
+    return true;
+  } catch (const DataError& error) {
+    if (!std::string_view(error.what()).starts_with(image.string())) throw;  // it is the output's
+    if (fs::exists(image)) spdlog::warn("{}", error.what());                 // else the card was taken out
+    return false;
+  }
+}
+
+}  // namespace
+
+void watchImages(ImageJob job, const ImageWatch& watch) {
+  constexpr milliseconds kForever = std::chrono::hours(24);
+  const Existing existing = job.existing;
+  CameraFolder images(watch.folder, watch.camera);
+  if (watch.pass_over) images.passOver();
+  std::set<fs::path> ours;
+  std::size_t taken = 0;
+  while (!watch.most || taken < *watch.most) {
+    const auto image = images.next(watch.longest_idle.value_or(kForever));
+    if (!image && watch.longest_idle) break;
+    if (!image) continue;
+    const fs::path out = outputOf(*image, watch);
+    job.existing = ours.contains(out) ? Existing::replace : existing;  // the image has changed since
+    if (!take(job, *image, out)) continue;
+    ours.insert(out);
+    ++taken;
+  }
+}
+
+}  // namespace thermovox
