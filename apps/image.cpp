@@ -61,7 +61,7 @@ void checkUsage(const ImageArgs& args) {
 /// Says what a reader of the picture should know.
 void warnAbout(const ImageArgs& args, const RawThermalImage& image) {
   const auto* t_linear = std::get_if<TLinear>(&image.rule);
-  if (image.rule_source == RuleSource::counts && t_linear != nullptr && !args.counts) {
+  if (image.rule_source == RuleSource::counts && t_linear != nullptr) {
     spdlog::warn(
         "{}: does not say what its counts mean; by their range they are taken for {} C each, above {} C "
         "(--celsius-per-count says another)",
@@ -118,7 +118,6 @@ std::string writeFrames(const ImageArgs& args, ThermalRecording& recording, int 
         recording.frames() == 1 ? args.in.string() : fmt::format("{}, frame {}", args.in.string(), frame);
     if (frame == first) {
       checkScale(args, raw);
-      warnAbout(args, raw);
       if (isTiff(args.out))
         tiff.emplace(args.out, args.existing(), planOf(raw, last - first + 1, args.counts));
       summary = fmt::format("{} x {}", raw.width, raw.height);
@@ -132,7 +131,10 @@ std::string writeFrames(const ImageArgs& args, ThermalRecording& recording, int 
     const ThermalImage image = decoder.decode(raw, name, args.overrides);
     const auto& range = raw.metadata.calibrated_range;
     const std::string told = summaryOf(statisticsOf(image, range), range);
-    if (frame == first) summary += ", " + told;
+    if (frame == first) {
+      warnAbout(args, raw);
+      summary += ", " + told;
+    }
     if (tiff) {
       tiff->add(image);
     } else {
