@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/arguments.hpp"
+#include "apps/radiometry_options.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
 #include "io/celsius_decoder.hpp"
@@ -56,6 +57,7 @@ void checkUsage(const ImageArgs& args) {
   if (!(low >= 0.0 && low < high && high <= 100.0))
     throw UsageError("--percentile: expected two numbers LO < HI from 0 to 100");
   (void)spanFrom(args.span);
+  checkRadiometry(args.overrides);
 }
 
 /// Says what a reader of the picture should know.
@@ -157,36 +159,6 @@ void runImage(const ImageArgs& args) {
             << summary << '\n';
 }
 
-const std::map<std::string, AtmosphereModel> kModels{{"single", AtmosphereModel::single},
-                                                     {"half", AtmosphereModel::half}};
-
-/// What takes the place of the file's own parameters.
-void addOverrides(CLI::App& verb, ImageArgs& args) {
-  RadiometricOverrides& overrides = args.overrides;
-  const CLI::Range above_absolute_zero(-273.14, 1e5);
-  const auto share = CLI::Range(0.05, 1.0);
-  verb.add_option("--emissivity", overrides.emissivity, "Of the object, 0.05 to 1 (default: the file's)")
-      ->check(share);
-  verb.add_option("--distance", overrides.distance, "From the object to the camera [m] (default: the file's)")
-      ->check(CLI::NonNegativeNumber);
-  verb.add_option("--reflected", overrides.reflected,
-                  "Temperature of what the object mirrors [C] (default: the file's)")
-      ->check(above_absolute_zero);
-  verb.add_option("--atmosphere-temperature", overrides.atmosphere_temperature,
-                  "Of the air [C] (default: the file's)")
-      ->check(above_absolute_zero);
-  verb.add_option("--humidity", overrides.humidity, "Of the air, 0 to 1 (default: the file's)")
-      ->check(CLI::Range(0.0, 1.0));
-  verb.add_option("--window-temperature", overrides.window_temperature,
-                  "Of a window before the lens [C] (default: the file's)")
-      ->check(above_absolute_zero);
-  verb.add_option("--window-transmission", overrides.window_transmission,
-                  "Of a window before the lens, 0.05 to 1; 1 is none (default: the file's)")
-      ->check(share);
-  addChoice(verb, "--atmosphere-model", overrides.model, kModels,
-            "The window at the lens, or in the middle of the air as Thermimage has it (default single)");
-}
-
 }  // namespace
 
 void addImage(CLI::App& app) {
@@ -203,7 +175,9 @@ void addImage(CLI::App& app) {
                    ".tiff: 32-bit floats in C, NaN where not known; .png, .jpg: picture by a palette with a "
                    "scale. The orientation is as stored")
       ->required();
-  addOverrides(*verb, *args);
+  verb->add_option("--distance", args->overrides.distance,
+                   "From the camera to the objects [m], instead of what a radiometric file says");
+  addRadiometryOptions(*verb, args->overrides);
   CLI::Option* per_count =
       verb->add_option("--celsius-per-count", args->celsius_per_count,
                        "Of a TIFF of counts: degrees a count [C] (default: what the file says, else its "

@@ -10,6 +10,7 @@
 
 #include "apps/arguments.hpp"
 #include "apps/map_job.hpp"
+#include "apps/radiometry_options.hpp"
 #include "apps/verbs.hpp"
 #include "projection/error.hpp"
 
@@ -59,6 +60,7 @@ void checkUsage(const MapJob& job) {
     throw UsageError("--threads: found " + std::to_string(job.threads) + ", expected 1 to " +
                      std::to_string(kMostThreads) + " (or 0 for all processors)");
   }
+  checkRadiometry(job.radiometry);
   if (!job.points.empty()) checkEnding(job.points, {".csv", ".ply"});
   for (const std::filesystem::path& file : job.geometry) checkEnding(file, {".pcd", ".ply"});
   try {
@@ -136,6 +138,7 @@ void addMap(CLI::App& app) {
   verb->add_flag_callback(
       "--again", [args] { args->job.known = KnownMission::add_again; },
       "Integrate a mission although the station has one of that name");
+  addRadiometryOptions(*verb, args->job.radiometry);
   addWorkOptions(*verb, args);
   verb->add_flag_callback(
       "--force", [args] { args->job.existing_points = Existing::replace; },

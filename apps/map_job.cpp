@@ -13,6 +13,7 @@
 
 #include "apps/imported_cloud.hpp"
 #include "apps/progress.hpp"
+#include "apps/radiometry_options.hpp"
 #include "io/folders.hpp"
 #include "io/mission_folder.hpp"
 #include "io/rig_file.hpp"
@@ -38,7 +39,7 @@ void warnOfHalfACamera(const OpenedMission& opened) {
 }
 
 MissionOptions missionOptions(const MapJob& job) {
-  return {.max_gap = durationFromSeconds(job.max_gap)};
+  return {.max_gap = durationFromSeconds(job.max_gap), .radiometry = job.radiometry};
 }
 
 /// All missions, in the order of their names on the command line.
@@ -152,6 +153,7 @@ std::string parametersOf(const MapJob& job) {
                               {"two_pass", job.two_pass || job.paint},
                               {"paint", job.paint}};
   for (const fs::path& file : job.geometry) json["geometry"].push_back(cloudName(file));
+  if (job.radiometry.any()) json["radiometry"] = jsonOf(job.radiometry);
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -10,6 +10,7 @@
 #include "io/points_record.hpp"
 #include "io/station.hpp"
 #include "mapping/mission_mapper.hpp"
+#include "projection/radiometric_overrides.hpp"
 
 namespace thermovox {
 
@@ -23,6 +24,7 @@ struct MapJob {
   RecordedPoints recorded = RecordedPoints::coloured;
   Existing existing_points = Existing::refuse;
   double max_gap = toSeconds(Trajectory::kDefaultMaxGap);
+  RadiometricOverrides radiometry;  ///< instead of what radiometric frames and their missions say
   MissionMapper::Options mapper;
   int threads = 0;                 ///< 0: one for each processor
   std::uint64_t memory_bytes = 0;  ///< of the maps, beyond which tiles go to files; 0: half of the machine's

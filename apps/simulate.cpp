@@ -27,6 +27,9 @@ const std::map<std::string, LensModel> kLensModels{{"pinhole", LensModel::pinhol
                                                    {"brown_conrady", LensModel::brown_conrady},
                                                    {"kannala_brandt", LensModel::kannala_brandt}};
 
+const std::map<std::string, simulate::FrameFormat> kFrameFormats{{"rjpeg", simulate::FrameFormat::rjpeg},
+                                                                 {"tiff", simulate::FrameFormat::tiff}};
+
 /// Puts an old result out of the way while a new one is made: back if that fails, gone if it succeeds.
 class SetAside {
  public:
@@ -115,6 +118,12 @@ void addSimulate(CLI::App& app) {
   verb->add_option("--blur", options.blur_px, "Optics and pixel together, one sigma [px]")
       ->capture_default_str();
   verb->add_option("--frame-rate", options.frame_rate, "Thermal frames a second")->capture_default_str();
+  addChoice(*verb, "--frames", options.frames, kFrameFormats,
+            "What the thermal camera stores: rjpeg (radiometric JPEGs, seen through the hall's air) or tiff "
+            "(temperatures, as if there were no air) (default tiff)");
+  verb->add_option("--air", options.air, "Temperature of the air before radiometric frames [C]")
+      ->capture_default_str();
+  verb->add_option("--humidity", options.humidity, "Its relative humidity, 0 to 1")->capture_default_str();
   verb->add_option("--range-sigma", options.range_sigma, "Range noise, one sigma [m]")->capture_default_str();
   verb->add_flag("--force", args->force, "Replace a mission that is there");
   verb->callback([args] { runSimulate(*args); });

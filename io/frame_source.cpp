@@ -43,6 +43,8 @@ class ListedFrames final : public FrameSource {
       : period_(medianPeriod(recording)),
         list_(openList(recording)),
         time_offset_(recording.time_offset),
+        radiometry_(recording.radiometry),
+        ambient_(recording.ambient),
         camera_(camera) {}
 
   std::optional<ThermalFrame> next() override {
@@ -71,9 +73,12 @@ class ListedFrames final : public FrameSource {
     }
     const RawThermalImage raw = recording_->read(row.page);
     const auto* parameters = std::get_if<RadiometricParameters>(&raw.rule);
-    if (parameters == nullptr) return decoder_.decode(raw, row.file.string());
-    ThermalImage image = decoder_.decode(raw, row.file.string(), {.distance = 0.0});
-    if (!air_ || !(air_->parameters() == *parameters)) air_ = std::make_shared<const AirPath>(*parameters);
+    if (parameters == nullptr) return decoder_.decode(raw, row.file.string(), radiometry_);
+    RadiometricOverrides overrides = radiometry_.orElse({.atmosphere_temperature = ambient_});
+    overrides.distance = 0.0;
+    ThermalImage image = decoder_.decode(raw, row.file.string(), overrides);
+    const RadiometricParameters wanted = overrides.applyTo(*parameters);
+    if (!air_ || !(air_->parameters() == wanted)) air_ = std::make_shared<const AirPath>(wanted);
     image.air = air_;
     return image;
   }
@@ -81,6 +86,8 @@ class ListedFrames final : public FrameSource {
   Duration period_;
   StampedFiles list_;
   Duration time_offset_;
+  RadiometricOverrides radiometry_;
+  std::optional<double> ambient_;
   ThermalCamera camera_;
   std::filesystem::path opened_;
   std::unique_ptr<ThermalRecording> recording_;

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "projection/radiometric_overrides.hpp"
 #include "projection/rig.hpp"
 #include "projection/sources.hpp"
 
@@ -13,6 +15,10 @@ struct FrameRecording {
   std::filesystem::path list;               ///< thermal.csv: `timestamp,file[,page]`
   std::filesystem::path folder;             ///< what the list's files are relative to
   Duration time_offset = Duration::zero();  ///< added to the stamps
+  /// Instead of what radiometric files say. Their distance is that of each point: it is not asked for.
+  RadiometricOverrides radiometry;
+  std::optional<double>
+      ambient;  ///< of the air, C: instead of what radiometric files say, where there are any
 };
 
 /// A source that reads the frames one at a time. It goes through the list once at the start, for the frames'

@@ -49,6 +49,20 @@ Duration cameraTimeOffset(const YamlMap& map) {
   return durationFromSeconds(seconds);
 }
 
+/// Also checks the temperature of the air, which is said under its own key.
+RadiometricOverrides radiometry(const YamlMap& map, const std::optional<double>& ambient) {
+  RadiometricOverrides overrides;
+  overrides.emissivity = map.numberIf("emissivity");
+  overrides.reflected = map.numberIf("reflected");
+  overrides.humidity = map.numberIf("humidity");
+  try {
+    overrides.orElse({.atmosphere_temperature = ambient}).validate();
+  } catch (const ConfigError& error) {
+    throw ConfigError(map.place("") + ": " + error.what());
+  }
+  return overrides;
+}
+
 /// A file given as a mission should be a mission.yaml; the other things that one might give are named.
 void refuseOtherKinds(const fs::path& file) {
   using namespace std::string_view_literals;
@@ -98,9 +112,12 @@ class MissionOpener {
     opened.readings = readings(opened.mission.rig);
     if (file_.thermal) opened.thermal_list = wanted(*file_.thermal, "thermal");
     if (opened.mission.rig.thermal_camera && opened.thermal_list) {
-      opened.frames = readFrames(
-          {.list = *opened.thermal_list, .folder = folder_, .time_offset = file_.camera_time_offset},
-          *opened.mission.rig.thermal_camera);
+      opened.frames = readFrames({.list = *opened.thermal_list,
+                                  .folder = folder_,
+                                  .time_offset = file_.camera_time_offset,
+                                  .radiometry = options_.radiometry.orElse(file_.radiometry),
+                                  .ambient = file_.ambient},
+                                 *opened.mission.rig.thermal_camera);
     }
     if (file_.visible) opened.visible_list = wanted(*file_.visible, "visible");
     return opened;
@@ -168,7 +185,7 @@ class MissionOpener {
 MissionFile parseMissionFile(const std::string& text, const std::string& file_name) {
   const YamlMap map = YamlMap::parse(text, file_name);
   map.allow({"name", "rig", "trajectory", "thermal", "visible", "laser", "pose_sigma", "camera_time_offset",
-             "ambient"});
+             "ambient", "emissivity", "reflected", "humidity"});
   MissionFile mission{.name = missionName(map), .rig = map.text("rig"), .trajectory = map.text("trajectory")};
   mission.lasers = map.textOrList("laser");
   if (mission.lasers.empty()) throw ConfigError(map.place("laser") + ": is missing");
@@ -181,6 +198,7 @@ MissionFile parseMissionFile(const std::string& text, const std::string& file_na
   }
   mission.camera_time_offset = cameraTimeOffset(map);
   mission.ambient = map.numberIf("ambient");
+  mission.radiometry = radiometry(map, mission.ambient);
   return mission;
 }
 

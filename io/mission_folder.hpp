@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "projection/mission.hpp"
+#include "projection/radiometric_overrides.hpp"
 #include "projection/sources.hpp"
 
 namespace thermovox {
@@ -23,6 +24,8 @@ struct MissionFile {
   double pose_translation_sigma = 0.0;  ///< metres
   Duration camera_time_offset = Duration::zero();
   std::optional<double> ambient;  ///< Celsius
+  /// emissivity, reflected (Celsius) and humidity, instead of what radiometric frames say.
+  RadiometricOverrides radiometry;
 };
 
 /// Reads the text of a mission.yaml; `file_name` stands for it in messages. Throws ConfigError naming the key
@@ -46,6 +49,8 @@ struct OpenedMission {
 struct MissionOptions {
   /// The trajectory does not interpolate over a longer time without poses.
   Duration max_gap = Trajectory::kDefaultMaxGap;
+  /// Instead of what radiometric frames say, and their mission. A frame's distance is that of each point.
+  RadiometricOverrides radiometry;
 };
 
 /// Opens a mission: its folder or its mission.yaml. Throws ConfigError or DataError, naming the file and who

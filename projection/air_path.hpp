@@ -37,7 +37,7 @@ class AirPath {
   double over_window_;      ///< Cw - Sair / (e W); 0 in the single model
   double over_air_;         ///< Cr, less Sair / e in the single model
   double over_half_;        ///< -Sair / e; 0 in the single model
-  bool half_;
+  double single_, half_;    ///< 1 for the model in use, 0 for the other: a choice would stop the vectors
 };
 
 THERMOVOX_INLINE_LOOP AirPath::Corrected AirPath::at(double celsius, double distance) const {
@@ -46,7 +46,7 @@ THERMOVOX_INLINE_LOOP AirPath::Corrected AirPath::at(double celsius, double dist
   const double x = parameters_.atmosphere.x;
   const double tau = x * portableExp(-root * decay1_) + (1.0 - x) * portableExp(-root * decay2_);
   const double q = 1.0 / tau;
-  const double a = half_ ? q * q : q;
+  const double a = single_ * q + half_ * (q * q);
   const double b = (a - q) * over_window_ + (a - 1.0) * over_air_ + (q - 1.0) * over_half_;
 
   // What a black body of temperature T radiates, in counts: p = r1 / (r2 (E - f)), E = exp(b / T), T in

@@ -32,7 +32,12 @@ std::variant<Colour, NoColour> colour(const PlacedReturn& point, const ThermalVi
   const float local_variance = view.local_variance.at(*pixel, variance_px2);
   const float sigma = std::sqrt(sample->noise_sigma * sample->noise_sigma + local_variance);
   const auto range = static_cast<float>(std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z));
-  return Colour{view.frame.stamp, *pixel, sample->celsius, sigma, range};
+  const AirPath* const air = view.frame.image->air.get();
+  if (air == nullptr) return Colour{view.frame.stamp, *pixel, sample->celsius, sigma, range};
+  const AirPath::Corrected corrected = air->at(sample->celsius, range);
+  if (std::isnan(corrected.celsius)) return NoColour::unknown_pixel;
+  return Colour{view.frame.stamp, *pixel, static_cast<float>(corrected.celsius),
+                sigma * static_cast<float>(corrected.slope), range};
 }
 
 }  // namespace thermovox

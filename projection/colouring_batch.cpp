@@ -88,6 +88,22 @@ void judge(ColouringBlock& block, const SeeingFrame& frame, CpuLevel level) {
   });
 }
 
+void correctBaseline(ColouringBlock& block, const AirPath& air) {
+  correctForAir(block, air);
+}
+THERMOVOX_TARGET_AVX2 void correctAvx2(ColouringBlock& block, const AirPath& air) {
+  correctForAir(block, air);
+}
+THERMOVOX_TARGET_AVX512 void correctAvx512(ColouringBlock& block, const AirPath& air) {
+  correctForAir(block, air);
+}
+
+void correct(ColouringBlock& block, const AirPath& air, CpuLevel level) {
+  if (level == CpuLevel::avx512) return correctAvx512(block, air);
+  if (level == CpuLevel::avx2) return correctAvx2(block, air);
+  correctBaseline(block, air);
+}
+
 void askOccluder(ColouringBlock& block, const SeeingFrame& frame, CpuLevel level) {
   const PointBlock& p = block.points;
   const auto column = [&](const BlockColumn<double>& values) {
@@ -161,6 +177,8 @@ std::span<const PointColour> ColouringBatch::colourEach(std::size_t count, const
     if (points.size > 0) {
       askOccluder(*block_, frame, level_);
       judge(*block_, frame, level_);
+      const AirPath* const air = frame.view.frame.image->air.get();
+      if (air != nullptr) correct(*block_, *air, level_);
     }
     writeColours(*block_, std::span(colours_).subspan(begin, size));
   }

@@ -50,7 +50,8 @@ class ColouringBatch {
   [[nodiscard]] std::span<const PointColour> colour(std::span<const PlacedReturn> points,
                                                     std::span<const std::uint32_t> which,
                                                     const SeeingFrame& frame);
-  /// The bilinear temperatures alone, without visibility and errors; NaN where the frame has none.
+  /// The bilinear temperatures alone, as they stand in the image: without visibility, errors and air. NaN
+  /// where the frame has none.
   [[nodiscard]] std::span<const float> sample(std::span<const Eigen::Vector3d> points_world,
                                               const ThermalView& view);
 

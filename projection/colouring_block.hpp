@@ -115,4 +115,15 @@ THERMOVOX_INLINE_LOOP void sumErrors(ColouringBlock& block) {
   }
 }
 
+/// Puts the air on the way to each point into its temperature and sigma.
+THERMOVOX_INLINE_LOOP void correctForAir(ColouringBlock& block, const AirPath& of) {
+  const AirPath air = of;  // a copy: see projectBlock
+  const std::size_t n = block.points.steppedSize();
+  for (std::size_t i = 0; i < n; ++i) {
+    const AirPath::Corrected corrected = air.at(block.celsius[i], block.range[i]);
+    block.celsius[i] = static_cast<float>(corrected.celsius);
+    block.sigma[i] *= static_cast<float>(corrected.slope);
+  }
+}
+
 }  // namespace thermovox

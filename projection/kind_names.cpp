@@ -26,4 +26,8 @@ const char* nameOf(LensModel model) {
   return "kannala_brandt";
 }
 
+const char* nameOf(AtmosphereModel model) {
+  return model == AtmosphereModel::half ? "half" : "single";
+}
+
 }  // namespace thermovox

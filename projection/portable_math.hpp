@@ -21,11 +21,14 @@ inline constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
 /// A double of this exponent holds whole numbers in its lowest bits.
 inline constexpr double kWhole = 0x1.8p52;
 
-template <std::size_t kCount>
+/// The polynomial, spelt out at compile time: a loop within a loop would not become vector instructions.
+template <std::size_t k = 0, std::size_t kCount>
 [[nodiscard]] THERMOVOX_INLINE_LOOP double horner(const std::array<double, kCount>& coefficients, double x) {
-  double sum = coefficients[kCount - 1];
-  for (std::size_t k = kCount - 1; k > 0; --k) sum = sum * x + coefficients[k - 1];
-  return sum;
+  if constexpr (k + 1 == kCount) {
+    return coefficients[k];
+  } else {
+    return horner<k + 1>(coefficients, x) * x + coefficients[k];
+  }
 }
 
 /// 1 / k!: the series of e^r, for |r| <= ln 2 / 2.

@@ -2,6 +2,12 @@
 
 namespace thermovox {
 
+void RadiometricOverrides::validate() const {
+  RadiometricParameters any_camera;
+  any_camera.planck = {1.0, 1.0, 1.0, 1.0, 0.0};
+  applyTo(any_camera).validate();
+}
+
 RadiometricOverrides RadiometricOverrides::orElse(const RadiometricOverrides& others) const {
   const auto first = [](const auto& own, const auto& other) { return own ? own : other; };
   return {first(emissivity, others.emissivity),

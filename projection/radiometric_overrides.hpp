@@ -20,6 +20,8 @@ struct RadiometricOverrides {
 
   bool operator==(const RadiometricOverrides&) const = default;
   [[nodiscard]] bool any() const { return *this != RadiometricOverrides(); }
+  /// Throws ConfigError naming the field, what was found and what was expected.
+  void validate() const;
   /// These values; where there is none, that of `others`.
   [[nodiscard]] RadiometricOverrides orElse(const RadiometricOverrides& others) const;
   /// The parameters with these values in them.

@@ -9,6 +9,8 @@
 #include "apps/simulate/instrument_files.hpp"
 #include "apps/simulate/laser_sampling.hpp"
 #include "apps/simulate/parallel.hpp"
+#include "apps/simulate/radiometric_jpeg.hpp"
+#include "apps/simulate/simulated_rig.hpp"
 #include "apps/simulate/thermal_render.hpp"
 #include "io/rig_file.hpp"
 
@@ -125,13 +127,21 @@ void writeTrajectory(const Simulation& simulation, const std::filesystem::path& 
 void writeThermalFrames(const Simulation& simulation, const std::filesystem::path& folder) {
   std::filesystem::create_directory(folder / "thermal");
   const ThermalRenderer renderer(simulation);
+  const bool radiometric = simulation.options().frames == FrameFormat::rjpeg;
+  const char* const ending = radiometric ? "jpg" : "tiff";
   const int width = simulation.rig().thermal_camera->camera.width();
   forEachIndex(simulation.frameCount(), simulation.options().threads, [&](std::size_t frame) {
-    writeThermalTiff(folder / numbered("thermal", frame, "tiff"), width, renderer.counts(frame));
+    const std::filesystem::path file = folder / numbered("thermal", frame, ending);
+    const std::vector<std::uint16_t> counts = renderer.counts(frame);
+    if (radiometric) {
+      writeRadiometricJpeg(file, width, counts, makeRadiometry(simulation.options()));
+    } else {
+      writeThermalTiff(file, width, counts);
+    }
   });
   std::string table = "timestamp,file\n";
   for (std::size_t frame = 0; frame < simulation.frameCount(); ++frame) {
-    table += formatTime(simulation.frameStamp(frame)) + "," + numbered("thermal", frame, "tiff") + "\n";
+    table += formatTime(simulation.frameStamp(frame)) + "," + numbered("thermal", frame, ending) + "\n";
   }
   writeText(folder / "thermal.csv", table);
 }

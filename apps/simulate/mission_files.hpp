@@ -16,7 +16,7 @@ void writeDescriptions(const Simulation& simulation, const std::string& name,
                        const std::filesystem::path& folder);
 /// trajectory.tum.
 void writeTrajectory(const Simulation& simulation, const std::filesystem::path& folder);
-/// thermal.csv and thermal/NNNNNN.tiff.
+/// thermal.csv and thermal/NNNNNN.tiff, or .jpg where the camera is to store radiometric JPEGs.
 void writeThermalFrames(const Simulation& simulation, const std::filesystem::path& folder);
 /// beam.csv, scans.csv, or clouds.csv and clouds/NNNNNN.pcd. Returns how many echoes they hold.
 [[nodiscard]] std::size_t writeLaser(const Simulation& simulation, const std::filesystem::path& folder);

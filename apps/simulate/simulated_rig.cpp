@@ -76,6 +76,17 @@ double cloudElevation(int beam) {
   return (-15.0 + 30.0 * beam / (kCloudBeams - 1)) * kDegree;
 }
 
+RadiometricParameters makeRadiometry(const SimulationOptions& options) {
+  RadiometricParameters parameters;
+  // 0.01 C a count at room temperature, 288 C at the last one.
+  parameters.planck = {.r1 = 34000.0, .r2 = 0.0442, .b = 1428.0, .f = 1.0, .o = -140.0};
+  parameters.emissivity = 1.0;
+  parameters.distance = 1.0;
+  parameters.reflected = parameters.atmosphere_temperature = parameters.window_temperature = options.air;
+  parameters.humidity = options.humidity;
+  return parameters;
+}
+
 Rig makeRig(const SimulationOptions& options) {
   // The optical axes: x right, y down, z forward of a camera that looks along the body's x.
   Eigen::Matrix3d R_body_optical;

@@ -35,6 +35,8 @@ void SimulationOptions::validate() const {
   requirePositive("scan_rate [1/s]", scan_rate, 200.0);
   requirePositive("cloud_rate [1/s]", cloud_rate, 200.0);
   requireNotNegative("netd [C]", netd, 10.0);
+  requireNotNegative("humidity", humidity, 1.0);
+  if (!(air >= -60.0 && air <= 80.0)) refuse("air [C]", air, "-60 to 80");
   requireNotNegative("blur_px", blur_px, 5.0);
   requireNotNegative("range_sigma [m]", range_sigma, 1.0);
   requireNotNegative("outlier_share", outlier_share, 1.0);

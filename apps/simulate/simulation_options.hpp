@@ -22,6 +22,10 @@ struct DeclaredErrors {
   double range_bias_sigma = 0.0;        ///< common to all ranges, metres
 };
 
+/// What the thermal camera stores. tiff: temperatures, as if there were no air. rjpeg: radiometric JPEGs of
+/// FLIR's kind, whose counts are of what is left of the radiation behind the air.
+enum class FrameFormat { tiff, rjpeg };
+
 /// What to fly, with what, how well.
 struct SimulationOptions {
   LaserKind laser = LaserKind::cloud;
@@ -34,6 +38,9 @@ struct SimulationOptions {
   double blur_px = 0.6;     ///< optics and pixel together, one sigma, px
   int supersampling = 3;    ///< rays a pixel and axis
   double frame_rate = 5.0;  ///< thermal frames a second
+  FrameFormat frames = FrameFormat::tiff;
+  double air = 20.0;      ///< temperature of the air, C (rjpeg)
+  double humidity = 0.5;  ///< of the air, relative, 0 to 1 (rjpeg)
 
   double range_sigma = 0.01;    ///< along the ray, one sigma, metres
   double outlier_share = 0.01;  ///< of a cloud's points: weak echoes off the surface, 0..1

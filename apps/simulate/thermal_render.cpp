@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "apps/simulate/random.hpp"
+#include "apps/simulate/simulated_rig.hpp"
 
 namespace thermovox::simulate {
 namespace {
@@ -29,10 +30,21 @@ std::vector<double> opticsKernel(double blur_px, int samples) {
   return kernel;
 }
 
+/// What is seen of a surface through `distance` metres of air, as decoded with distance 0.
+double throughAir(double celsius, double distance, const RadiometricParameters& without_air) {
+  RadiometricParameters with_air = without_air;
+  with_air.distance = distance;
+  return celsiusOfCounts(countsOfCelsius(celsius, with_air), without_air);
+}
+
 }  // namespace
 
 ThermalRenderer::ThermalRenderer(const Simulation& simulation)
     : simulation_(simulation), samples_(simulation.options().supersampling) {
+  if (simulation.options().frames == FrameFormat::rjpeg) {
+    radiometry_ = makeRadiometry(simulation.options());
+    radiometry_->distance = 0.0;
+  }
   const ThermalCamera& thermal = *simulation.rig().thermal_camera;
   columns_ = (thermal.camera.width() + 2 * kMargin) * samples_;
   rows_ = (thermal.camera.height() + 2 * kMargin) * samples_;
@@ -56,7 +68,9 @@ std::vector<float> ThermalRenderer::sampleRays(const Pose& T_world_body) const {
     if (rays_camera_[i].isZero(0.0F)) continue;
     const Eigen::Vector3d d_world = R_world_camera * rays_camera_[i].cast<double>();
     const auto hit = simulation_.hall().castRay(T_world_camera.translation, d_world);
-    if (hit) celsius[i] = static_cast<float>(hit->temperature);
+    if (!hit) continue;
+    celsius[i] = static_cast<float>(radiometry_ ? throughAir(hit->temperature, hit->range, *radiometry_)
+                                                : hit->temperature);
   }
   return celsius;
 }
@@ -104,18 +118,23 @@ std::vector<float> ThermalRenderer::render(const Pose& T_world_body) const {
   return image;
 }
 
+double ThermalRenderer::countOf(double celsius) const {
+  if (radiometry_) return countsOfCelsius(celsius, *radiometry_);
+  const TLinear& t_linear = simulation_.rig().thermal_camera->t_linear;
+  return (celsius - t_linear.celsius_offset) / t_linear.celsius_per_count;
+}
+
 std::vector<std::uint16_t> ThermalRenderer::counts(std::size_t frame) const {
   const std::vector<float> celsius = render(simulation_.truePose(simulation_.frameStamp(frame)));
   const SimulationOptions& options = simulation_.options();
   Random bias(options.seed, RandomStream::thermal_bias, frame);
   Random noise(options.seed, RandomStream::thermal_noise, frame);
   const double offset = options.errors.camera_bias_sigma * bias.normal();
-  const TLinear& t_linear = simulation_.rig().thermal_camera->t_linear;
   std::vector<std::uint16_t> counts;
   counts.reserve(celsius.size());
   for (const float surface : celsius) {
     const double shown = surface + offset + options.netd * noise.normal();
-    const double count = std::round((shown - t_linear.celsius_offset) / t_linear.celsius_per_count);
+    const double count = std::round(countOf(shown));
     counts.push_back(std::isnan(count) ? 0 : static_cast<std::uint16_t>(std::clamp(count, 1.0, 65535.0)));
   }
   return counts;

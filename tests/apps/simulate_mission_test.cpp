@@ -44,6 +44,20 @@ TEST(SimulateMission, SameSeedGivesSameBytesWithAnyNumberOfThreads) {
   }
 }
 
+TEST(SimulateMission, SameSeedGivesSameRadiometricFrames) {
+  const test::TestFolder folder;
+  SimulationOptions options = optionsOf(LaserKind::beam, 0.5);
+  options.frames = FrameFormat::rjpeg;
+  options.threads = 1;
+  simulateMission(options, folder / "one" / "hall");
+  options.threads = 4;
+  simulateMission(options, folder / "two" / "hall");
+  EXPECT_EQ(contentOf(folder / "one"), contentOf(folder / "two"));
+  options.humidity = 0.9;
+  simulateMission(options, folder / "humid" / "hall");
+  EXPECT_NE(contentOf(folder / "one"), contentOf(folder / "humid"));
+}
+
 TEST(SimulateMission, LeavesOnlyTheMissionAndItsTruth) {
   const test::TestFolder folder;
   simulateMission(optionsOf(LaserKind::cloud, 0.2), folder / "hall/");

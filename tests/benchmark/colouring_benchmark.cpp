@@ -22,7 +22,7 @@ namespace {
 constexpr int kPointsAcross = 500;
 constexpr int kPoints = kPointsAcross * 400;
 
-enum class Spread { in_view, all_round };
+enum class Spread { in_view, in_view_through_air, all_round };
 
 Camera benchmarkLens() {
   Intrinsics in{.width_px = 160, .height_px = 120, .model = LensModel::brown_conrady, .distortion_count = 5};
@@ -30,7 +30,8 @@ Camera benchmarkLens() {
   return Camera(in);
 }
 
-ThermalFrame benchmarkFrame() {
+/// With air: as a radiometric camera's frame in a mission.
+ThermalFrame benchmarkFrame(Spread spread) {
   std::mt19937_64 random(1);
   std::normal_distribution<float> noise(0.0F, 0.05F);
   auto image = std::make_shared<ThermalImage>(ThermalImage{.width = 160, .height = 120});
@@ -38,6 +39,8 @@ ThermalFrame benchmarkFrame() {
     for (int u = 0; u < 160; ++u)
       image->celsius.push_back((u / 20 + v / 20) % 2 == 0 ? 21.0F + noise(random) : 45.0F);
   }
+  RadiometricParameters parameters{.planck = {21106.77, 0.012545258, 1501.0, 1.0, -7340.0}};
+  if (spread == Spread::in_view_through_air) image->air = std::make_shared<const AirPath>(parameters);
   return {.stamp = Time(), .image = std::move(image), .name = "benchmark"};
 }
 
@@ -50,13 +53,13 @@ struct Scene {
               .range_sigma = 0.01};
   Mission mission{.trajectory =
                       Trajectory({{Time(), T_world_camera}, {Time(std::chrono::hours(1)), T_world_camera}})};
-  ThermalView view{benchmarkFrame(), T_world_camera, camera};
+  ThermalView view;
   DepthSectors sectors{camera.camera, view.T_camera_world, {}};
   std::vector<LaserReturn> returns;
   std::vector<PlacedReturn> points;
   std::vector<Eigen::Vector3d> positions;
 
-  explicit Scene(Spread spread) {
+  explicit Scene(Spread spread) : view(benchmarkFrame(spread), T_world_camera, camera) {
     Vector6d sigmas;
     sigmas << 0.002, 0.002, 0.002, 0.005, 0.005, 0.005;
     laser.covariance_body_laser = sigmas.cwiseAbs2().asDiagonal();
@@ -64,7 +67,7 @@ struct Scene {
     const Pose T_laser_camera = laser.T_body_laser.inverse();  // the camera is the body here
     while (points.size() < kPoints) {
       const Eigen::Vector3d p_camera =
-          onSurface(spread == Spread::in_view ? rayInView(random) : rayAllRound(random));
+          onSurface(spread == Spread::all_round ? rayAllRound(random) : rayInView(random));
       returns.push_back({.stamp = Time(), .p_laser = T_laser_camera * p_camera});
       points.push_back(std::get<PlacedReturn>(place(returns.back(), laser, mission)));
       positions.push_back(points.back().p_world);
@@ -95,7 +98,9 @@ struct Scene {
 
 const Scene& sceneOf(Spread spread) {
   static const Scene in_view(Spread::in_view);
+  static const Scene through_air(Spread::in_view_through_air);
   static const Scene all_round(Spread::all_round);
+  if (spread == Spread::in_view_through_air) return through_air;
   return spread == Spread::in_view ? in_view : all_round;
 }
 
@@ -218,6 +223,10 @@ void colourBatchInView(benchmark::State& state) {
 void colourBatchOfAReading(benchmark::State& state) {
   colourBatch(state, Spread::in_view, sceneOf(Spread::in_view).sectors, 30'000);
 }
+/// A radiometric camera's frame: with the air on the way to each point.
+void colourBatchOfAReadingThroughAir(benchmark::State& state) {
+  colourBatch(state, Spread::in_view_through_air, sceneOf(Spread::in_view).sectors, 30'000);
+}
 void colourBatchInViewWithoutOccluder(benchmark::State& state) {
   colourBatch(state, Spread::in_view, NoOccluder());
 }
@@ -297,6 +306,7 @@ BENCHMARK(colourInView)->Unit(benchmark::kMillisecond);
 BENCHMARK(colourAllRound)->Unit(benchmark::kMillisecond);
 BENCHMARK(colourBatchInView)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(colourBatchOfAReading)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK(colourBatchOfAReadingThroughAir)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(colourBatchInViewWithoutOccluder)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(colourBatchAllRound)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(sampleBatchInView)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);

@@ -201,6 +201,15 @@ TEST_F(MissionFolder, RefusesAListWithoutImages) {
   EXPECT_THAT(complaint<DataError>(), AllOf(HasSubstr("thermal.csv"), HasSubstr("lists no image")));
 }
 
+TEST_F(MissionFolder, MayKnowTheObjectsAndTheAirBetterThanItsImages) {
+  const std::string text = "name: a\nrig: r\ntrajectory: t\nlaser: l\nambient: 12\n";
+  EXPECT_FALSE(parseMissionFile(text, "mission.yaml").radiometry.any());
+  const MissionFile mission =
+      parseMissionFile(text + "humidity: 0.55\nemissivity: 0.9\nreflected: -10\n", "mission.yaml");
+  EXPECT_EQ(mission.radiometry,
+            (RadiometricOverrides{.emissivity = 0.9, .reflected = -10.0, .humidity = 0.55}));
+}
+
 TEST_F(MissionFolder, RefusesWhatMissionFilesDoNotSay) {
   const auto complaintAbout = [](const std::string& text) {
     return messageOf<ConfigError>([&] { static_cast<void>(parseMissionFile(text, "mission.yaml")); });
@@ -212,6 +221,10 @@ TEST_F(MissionFolder, RefusesWhatMissionFilesDoNotSay) {
   EXPECT_THAT(complaintAbout(least + "termal: x\n"),
               HasSubstr("mission.yaml: unknown key 'termal', expected one of"));
   EXPECT_THAT(complaintAbout(least + "ambient: warm\n"), HasSubstr("mission.yaml, ambient: found 'warm'"));
+  EXPECT_EQ(complaintAbout(least + "humidity: 55\n"),
+            "mission.yaml: Radiometry: humidity is 55, expected a fraction from 0 to 1");
+  EXPECT_THAT(complaintAbout(least + "emissivity: 0\n"), HasSubstr("emissivity is 0, expected 0.05 to 1"));
+  EXPECT_THAT(complaintAbout(least + "ambient: -300\n"), HasSubstr("atmosphere temperature is -300"));
   EXPECT_THAT(complaintAbout(least + "pose_sigma: 0.1\n"),
               HasSubstr("pose_sigma: found '0.1', expected a mapping"));
   EXPECT_THAT(complaintAbout(least + "pose_sigma: {rotation: -1}\n"),

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <concepts>
+#include <utility>
+
 #include "tests/mapping/synthetic_scene.hpp"
 #include "tests/projection/scene.hpp"
+#include "tests/support/radiometry.hpp"
 
 namespace thermovox::test {
 namespace {
@@ -13,13 +17,16 @@ ThermalCamera thermalCamera() {
 }
 
 /// Paints one frame, taken from the origin, of all that `scene_maps` hold onto `map`.
-template <typename Celsius>
-void paintOnce(const std::vector<const ThermalMap*>& scene_maps, const Celsius& celsius, ThermalMap& map) {
+void paintOnce(const std::vector<const ThermalMap*>& scene_maps, ThermalImage image, ThermalMap& map) {
   const ThermalCamera camera = thermalCamera();
-  const ThermalView view(frameOf(imageOf(160, 120, celsius), Time(std::chrono::seconds(7))), Pose{}, camera);
+  const ThermalView view(frameOf(std::move(image), Time(std::chrono::seconds(7))), Pose{}, camera);
   SceneSurfaces scene(scene_maps);
   const SceneView scene_view(camera.camera, Pose{}, scene, paintRange(camera, map.resolution()), {});
-  paint(view, camera, scene_view, 0.01, map);
+  paint(view, camera, scene_view, {.range_sigma = 0.01}, map);
+}
+template <std::invocable<int, int> Celsius>
+void paintOnce(const std::vector<const ThermalMap*>& scene_maps, const Celsius& celsius, ThermalMap& map) {
+  paintOnce(scene_maps, imageOf(160, 120, celsius), map);
 }
 
 TEST(Painting, ColoursEverySurfaceThatTheFrameSeesOnce) {
@@ -56,6 +63,24 @@ TEST(Painting, KnowsTheIncidenceOnAWall) {
   ASSERT_TRUE(cell != nullptr && cell->observations == 1);
   EXPECT_NEAR(cell->bestView().incidence, std::atan2(std::hypot(2.0, 1.0), 5.02), 0.2);
   EXPECT_NEAR(cell->bestView().range, aside.norm(), 0.06);
+}
+
+TEST(Painting, PutsTheAirOfItsOwnDistanceIntoEveryCell) {
+  ThermalMap map = mapOf({kWallBehind});
+  RadiometricParameters parameters = sc660();
+  parameters.atmosphere_temperature = 35.0;
+  parameters.humidity = 1.0;
+  const AirPath air(parameters);
+  ThermalImage image = imageOf(160, 120, [](int, int) { return 120.0; });
+  image.air = std::make_shared<const AirPath>(parameters);
+  paintOnce({&map}, std::move(image), map);
+  for (const Eigen::Vector3d& place : {Eigen::Vector3d(0.0, 0.0, 5.02), Eigen::Vector3d(2.0, 1.0, 5.02)}) {
+    const SurfaceCell* cell = map.surface(map.keyOf(place));
+    ASSERT_TRUE(cell != nullptr && cell->observations == 1);
+    const double expected = air.at(120.0, cell->bestView().range).celsius;
+    EXPECT_GT(expected, 121.0);
+    EXPECT_NEAR(cell->mean(), expected, 0.01) << place.transpose();  // what a cell stores
+  }
 }
 
 TEST(Painting, ACellOnAnEdgeOfTemperaturesDistrustsItself) {

@@ -12,6 +12,7 @@
 
 #include "projection/depth_sectors.hpp"
 #include "tests/projection/scene.hpp"
+#include "tests/support/radiometry.hpp"
 
 namespace thermovox {
 namespace {
@@ -26,6 +27,16 @@ std::vector<CpuLevel> levels() {
   return levels;
 }
 
+/// No air, that of the one model, that of the other, in turns.
+std::shared_ptr<const AirPath> airOf(int seed) {
+  if (seed % 3 == 0) return nullptr;
+  RadiometricParameters parameters = test::sc660();
+  parameters.model = seed % 3 == 1 ? AtmosphereModel::single : AtmosphereModel::half;
+  parameters.window_transmission = 0.9;
+  parameters.reflected = -20.0;
+  return std::make_shared<const AirPath>(parameters);
+}
+
 /// A frame of noise with holes, seen from somewhere, and points before, beside and behind it.
 struct RandomScene {
   std::mt19937_64 random;
@@ -37,7 +48,7 @@ struct RandomScene {
   RandomScene(const test::Lens& lens, int seed)
       : random(static_cast<std::uint64_t>(seed)),
         camera{.camera = Camera(lensOf(lens))},
-        view(test::frameOf(imageWithHoles()), T_world_camera, camera) {
+        view(test::frameOf(imageWithHoles(airOf(seed))), T_world_camera, camera) {
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (int i = 0; i < 3001; ++i) {
       const double z = 6.0 + 7.0 * uniform(random);
@@ -55,12 +66,14 @@ struct RandomScene {
     for (int k = kFx; k < kDistortion; ++k) in.parameters[static_cast<std::size_t>(k)] *= scale;
     return in;
   }
-  ThermalImage imageWithHoles() {
+  ThermalImage imageWithHoles(std::shared_ptr<const AirPath> air) {
     std::uniform_real_distribution<double> celsius(15.0, 90.0), hole(0.0, 1.0);
-    return test::imageOf(120, 96, [&](int u, int v) {
+    ThermalImage image = test::imageOf(120, 96, [&](int u, int v) {
       const bool known = hole(random) > 0.15 && !(u > 30 && u < 45 && v > 20 && v < 40);
       return known ? celsius(random) : kNan;
     });
+    image.air = std::move(air);
+    return image;
   }
   PlacedReturn pointAt(const Eigen::Vector3d& p_world, double sigma) {
     std::normal_distribution<double> normal;
@@ -147,7 +160,7 @@ TEST_P(EveryLensInABatch, ColoursABatchAsItColoursItsPoints) {
 }
 
 TEST_P(EveryLensInABatch, SamplesABatchAsItSamplesItsPoints) {
-  const RandomScene scene(GetParam(), 7);
+  const RandomScene scene(GetParam(), 6);  // as the image has them: a scene without air
   std::vector<Eigen::Vector3d> positions;
   for (const PlacedReturn& point : scene.points) positions.push_back(point.p_world);
   for (const CpuLevel level : levels()) {

@@ -10,6 +10,7 @@
 
 #include "tests/projection/matchers.hpp"
 #include "tests/projection/scene.hpp"
+#include "tests/support/radiometry.hpp"
 
 namespace thermovox {
 namespace {
@@ -79,6 +80,43 @@ TEST(Colour, GivesEveryVisiblePointTheTemperatureOfItsPlace) {
     EXPECT_GE(c.sigma, camera.netd / 2 - 1e-6);  // four equal weights halve the noise, nothing does better
   }
   EXPECT_GT(coloured, 1000);
+}
+
+TEST(Colour, PutsTheAirOfItsOwnDistanceIntoEveryPoint) {
+  // Walls of one temperature at many distances, through humid air: what the camera counts differs.
+  const ThermalCamera camera = lens();
+  RadiometricParameters parameters = test::sc660();
+  parameters.atmosphere_temperature = 12.0;
+  parameters.humidity = 0.9;
+  constexpr double kObject = 85.0;
+  for (const double depth : {1.0, 5.0, 20.0, 60.0}) {
+    parameters.distance = depth;
+    const double counts = countsOfCelsius(kObject, parameters);
+    parameters.distance = 0.0;
+    const double at_no_distance = celsiusOfCounts(counts, parameters);
+    ThermalImage image = test::imageOf(160, 120, [&](int, int) { return at_no_distance; });
+    image.air = std::make_shared<const AirPath>(parameters);
+    const ThermalView view(test::frameOf(image), {}, camera);
+    const Eigen::Vector3d ahead = depth * camera.camera.rayFromPixel({80.0, 60.0}).value().normalized();
+    const Colour c = std::get<Colour>(colour(pointAt(ahead), view, camera, NoOccluder()));
+    EXPECT_NEAR(c.celsius, kObject, 1e-4) << depth;  // floats of the image, made larger by the air
+    EXPECT_NEAR(c.range, depth, 1e-5);
+    // A difference in the image is a larger one at the object.
+    const double slope = image.air->at(at_no_distance, depth).slope;
+    EXPECT_GT(slope, 1.0);
+    EXPECT_NEAR(c.sigma, camera.netd * slope, 1e-6) << depth;
+  }
+}
+
+TEST(Colour, GivesNoTemperatureThatTheCountsCannotMean) {
+  const ThermalCamera camera = lens();
+  RadiometricParameters parameters = test::sc660();
+  parameters.atmosphere_temperature = 40.0;
+  ThermalImage image = test::imageOf(160, 120, [](int, int) { return -190.0; });
+  image.air = std::make_shared<const AirPath>(parameters);
+  const ThermalView view(test::frameOf(std::move(image)), {}, camera);
+  EXPECT_EQ(std::get<NoColour>(colour(pointAt({0, 0, 50}), view, camera, NoOccluder())),
+            NoColour::unknown_pixel);
 }
 
 TEST(Colour, SaysWhyThereIsNone) {
