@@ -25,9 +25,9 @@ bool isTiff(const fs::path& path) {
 namespace {
 
 /// Says what a reader of the picture should know.
-void warnAbout(const ImageJob& job, const fs::path& in, const RawThermalImage& image) {
+void warnAbout(const fs::path& in, const RawThermalImage& image) {
   const auto* t_linear = std::get_if<TLinear>(&image.rule);
-  if (image.rule_source == RuleSource::counts && t_linear != nullptr && !job.counts) {
+  if (image.rule_source == RuleSource::counts && t_linear != nullptr) {
     spdlog::warn(
         "{}: does not say what its counts mean; by their range they are taken for {} C each, above {} C "
         "(--celsius-per-count says another)",
@@ -124,14 +124,13 @@ std::string writeImage(const ImageJob& job, const fs::path& in, const fs::path& 
   std::string summary;
   for (int frame = first; frame <= last; ++frame) {
     const RawThermalImage raw = recording->read(frame);
-    if (frame == first) {
-      checkScale(job, in, raw);
-      warnAbout(job, in, raw);
-    }
+    if (frame == first) checkScale(job, in, raw);
     const std::string name =
         recording->frames() == 1 ? in.string() : fmt::format("{}, frame {}", in.string(), frame);
     const std::string told = writer.add(raw, name);
-    if (frame == first) summary = told;
+    if (frame > first) continue;
+    if (!job.counts) warnAbout(in, raw);
+    summary = told;
   }
   writer.commit();
   return job.all ? fmt::format("{} frames, {}", recording->frames(), summary) : summary;

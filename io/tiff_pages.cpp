@@ -129,7 +129,8 @@ class TiffPages::File {
   File(const File&) = delete;
   File& operator=(const File&) = delete;
 
-  [[nodiscard]] int pages() { return static_cast<int>(TIFFNumberOfDirectories(tiff_.get())); }
+  /// libtiff counts none where the first page's directory is there but damaged in what leads on.
+  [[nodiscard]] int pages() { return std::max(1, static_cast<int>(TIFFNumberOfDirectories(tiff_.get()))); }
   [[nodiscard]] const std::string& name() const { return name_; }
   void goTo(int page);
   /// Pixels, counts or floats, of the current page.

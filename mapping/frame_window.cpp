@@ -93,7 +93,7 @@ std::variant<FrameColour, Uncoloured> FrameWindow::colourBy(Frame& frame, const 
   const auto result = thermovox::colour(placed, frame.sight->view, camera_, *frame.sight->occluder);
   if (const NoColour* reason = std::get_if<NoColour>(&result)) return reasonOf(*reason);
   const Colour& found = std::get<Colour>(result);
-  return FrameColour{found, frame.countSample(found.pixel)};
+  return FrameColour{found, frame.countSample(found.pixel), &frame.sight->view};
 }
 
 FrameWindow::Candidates FrameWindow::candidatesAt(Time stamp) const {
@@ -169,7 +169,7 @@ void FrameWindow::ask(const Question& question, std::span<const PlacedReturn> re
     const std::uint32_t i = question.returns[k];
     const std::variant<Colour, NoColour> result = colours[k].by(frame.frame.stamp);
     if (const Colour* colour = std::get_if<Colour>(&result)) {
-      answers_[i] = FrameColour{*colour};
+      answers_[i] = FrameColour{.colour = *colour, .view = &frame.sight->view};
       coloured_by_[i] = &frame;
     } else if (attempt == 0) {
       answers_[i] = reasonOf(std::get<NoColour>(result));

@@ -24,6 +24,7 @@ struct FrameColour {
   /// 1 for the first return that was coloured by this pixel of this frame, 2 for the second, ... All of them
   /// share the pixel's noise.
   int sample = 1;
+  const ThermalView* view = nullptr;  ///< of the frame; until the window drops it
 };
 
 /// The thermal frames around the returns at hand. A frame comes in, waits until enough laser data after it is

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "mapping/grazing.hpp"
 #include "mapping/painting.hpp"
 #include "mapping/surfaces_in_view.hpp"
 #include "projection/error.hpp"
@@ -48,14 +49,15 @@ double widestRangeSigma(const Rig& rig) {
   return widest;
 }
 
-MappedReturn mappedReturn(const PlacedReturn& placed, const std::optional<FrameColour>& found) {
+MappedReturn mappedReturn(const PlacedReturn& placed, const std::optional<FrameColour>& found,
+                          float incidence) {
   MappedReturn mapped{placed.p_world, placed.origin_world, placed.stamp, std::nullopt};
   if (found) {
     mapped.temperature =
         TemperatureObservation{.celsius = found->colour.celsius,
                                .sigma = found->colour.sigma * static_cast<float>(found->sample),
                                .range = found->colour.range,
-                               .incidence = std::numeric_limits<float>::quiet_NaN()};
+                               .incidence = incidence};
   }
   return mapped;
 }
@@ -188,7 +190,9 @@ std::unique_ptr<Occluder> MissionMapper::secondLook(const ThermalView& view) {
   const ThermalCamera& camera = *mission_.rig.thermal_camera;
   auto scene_view = std::make_unique<SceneView>(camera.camera, view.T_camera_world, *options_.scene,
                                                 viewRange(view), options_.scene_visibility);
-  if (options_.pass == Pass::paint) paint(view, camera, *scene_view, widestRangeSigma(mission_.rig), map_);
+  if (options_.pass == Pass::paint) {
+    paint(view, camera, *scene_view, {widestRangeSigma(mission_.rig), mission_.ambient}, map_);
+  }
   return scene_view;
 }
 
@@ -209,11 +213,17 @@ void MissionMapper::mapReading(const WaitingReading& reading) {
   coloured.reserve(reading.returns.size());
   mapped.reserve(reading.returns.size());
   if (frames_) answers = frames_->colour(reading.returns);
+  std::vector<std::optional<FrameColour>> found;
+  found.reserve(reading.returns.size());
+  for (std::size_t i = 0; i < reading.returns.size(); ++i)
+    found.push_back(counted(frames_ ? answers[i] : Uncoloured::no_camera));
+  const std::vector<float> incidences =
+      distrustGrazing(reading.returns, found,
+                      {kBlockEdge * map_.resolution(), widestRangeSigma(mission_.rig), mission_.ambient});
   for (std::size_t i = 0; i < reading.returns.size(); ++i) {
     const PlacedReturn& placed = reading.returns[i];
-    const std::optional<FrameColour> found = counted(frames_ ? answers[i] : Uncoloured::no_camera);
-    mapped.push_back(mappedReturn(placed, found));
-    coloured.push_back({placed, found ? std::optional(found->colour) : std::nullopt});
+    mapped.push_back(mappedReturn(placed, found[i], incidences[i]));
+    coloured.push_back({placed, found[i] ? std::optional(found[i]->colour) : std::nullopt});
     report_.first_stamp = std::min(report_.first_stamp.value_or(placed.stamp), placed.stamp);
     report_.last_stamp = std::max(report_.last_stamp.value_or(placed.stamp), placed.stamp);
   }

@@ -2,23 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "mapping/grazing.hpp"
 #include "projection/colouring_batch.hpp"
 
 namespace thermovox {
 namespace {
 
 constexpr double kWidestPixel = 4.0;  // in cells
-
-/// Angle between the line of sight and the surface's normal, radians; NaN where it is not known.
-float incidenceOf(const SceneSurface& surface, const Eigen::Vector3d& camera_world) {
-  if (surface.normal.isZero()) return std::numeric_limits<float>::quiet_NaN();
-  const Eigen::Vector3f to_camera = (camera_world - surface.p_world).cast<float>().normalized();
-  return std::acos(std::min(std::abs(surface.normal.dot(to_camera)), 1.0F));
-}
 
 }  // namespace
 
@@ -27,9 +20,10 @@ double paintRange(const ThermalCamera& camera, double resolution) {
 }
 
 void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView& scene_view,
-           double range_sigma, ThermalMap& map) {
+           const PaintOptions& options, ThermalMap& map) {
   const double range = paintRange(camera, map.resolution());
-  const double variance = range_sigma * range_sigma + map.resolution() * map.resolution() / 12.0;
+  const double variance =
+      options.range_sigma * options.range_sigma + map.resolution() * map.resolution() / 12.0;
   const PackedCovariance covariance = variance * Eigen::Matrix3d::Identity();
   std::vector<const SceneSurface*> surfaces;
   std::vector<PlacedReturn> points;
@@ -44,15 +38,18 @@ void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView
                       .range = distance,
                       .rig_covariance = covariance});
   }
+  const double reflected = reflectedTemperature(*view.frame.image, options.ambient);
   ColouringBatch batch;
   const std::span<const PointColour> colours = batch.colour(points, {view, camera, scene_view});
   for (std::size_t i = 0; i < colours.size(); ++i) {
     if (colours[i].outcome != PointColour::Outcome::coloured) continue;
-    const TemperatureObservation observation{
-        .celsius = colours[i].celsius,
-        .sigma = colours[i].sigma,
-        .range = colours[i].range,
-        .incidence = incidenceOf(*surfaces[i], view.T_world_camera.translation)};
+    const SceneSurface& surface = *surfaces[i];
+    const GrazingView grazing =
+        grazingView(surface.normal, {surface.p_world, colours[i].celsius}, view, reflected);
+    const TemperatureObservation observation{.celsius = colours[i].celsius,
+                                             .sigma = std::hypot(colours[i].sigma, grazing.sigma),
+                                             .range = colours[i].range,
+                                             .incidence = grazing.incidence};
     map.observe(surfaces[i]->key, observation, view.frame.stamp);
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "mapping/scene_view.hpp"
 #include "mapping/thermal_map.hpp"
 #include "projection/rig.hpp"
@@ -11,13 +13,20 @@ namespace thermovox {
 /// little of any of them.
 [[nodiscard]] double paintRange(const ThermalCamera& camera, double resolution);
 
+/// What painting is told of the mission.
+struct PaintOptions {
+  double range_sigma = 0.0;       ///< noise of the laser that measured the surfaces, one sigma, metres
+  std::optional<double> ambient;  ///< of the air, C: what surfaces mirror, where the frame does not say
+};
+
 /// Paints a frame onto a map: every surface of the scene within paintRange that nothing hides from the frame
 /// gets one observation in its cell of `map`, at the mean position of the cell's returns. Its sigma is that
-/// of a laser point whose position is unsure by `range_sigma` (metres) and by the spread of a surface within
+/// of a laser point whose position is unsure by range_sigma and by the spread of a surface within
 /// its cell (edge^2 / 12 an axis): a cell on an edge of temperatures, or wider than a pixel, distrusts
-/// itself. The incidence is that on the plane of the neighbouring cells. Cells that one pixel paints share
+/// itself. The incidence is that on the plane of the neighbouring cells, and a grazing one is distrusted
+/// (GrazingView). Cells that one pixel paints share
 /// its noise; a cell gets at most one observation from a frame.
 void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView& scene_view,
-           double range_sigma, ThermalMap& map);
+           const PaintOptions& options, ThermalMap& map);
 
 }  // namespace thermovox

@@ -1,11 +1,11 @@
 #include "mapping/scene_surfaces.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "mapping/local_plane.hpp"
 #include "mapping/view_cone.hpp"
 #include "projection/error.hpp"
 
@@ -16,7 +16,6 @@ constexpr int kTileCells = kTileEdge * kBlockEdge;  // an edge
 constexpr std::uint64_t kViewsKept = 16;            // views after which an unused tile is forgotten
 constexpr int kReach = 2;                           // cells around one that tell its normal
 constexpr std::size_t kFewest = 6;                  // points that make a plane
-constexpr double kPlanar = 0.35;                    // thickness of a plane against its shorter width
 
 /// The surfaces in and around a tile by their cells, to find neighbours at once.
 class Neighbourhood {
@@ -35,16 +34,10 @@ class Neighbourhood {
   /// Normal of the plane through the surfaces within `reach` cells; zero where they are too few or no plane.
   [[nodiscard]] Eigen::Vector3f normalAt(const SceneSurface& surface) const {
     for (int reach = 1; reach <= kReach; ++reach) {
-      Eigen::Vector3d first = Eigen::Vector3d::Zero();
-      Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-      std::size_t count = 0;
-      forEachAround(surface.key, reach, [&](const Eigen::Vector3d& p_world) {
-        const Eigen::Vector3d d = p_world - surface.p_world;
-        first += d;
-        second += d * d.transpose();
-        ++count;
-      });
-      if (count >= kFewest) return planeNormal(first, second, static_cast<double>(count));
+      PointSums sums;
+      forEachAround(surface.key, reach,
+                    [&](const Eigen::Vector3d& p_world) { sums.add(p_world - surface.p_world); });
+      if (sums.count >= kFewest) return localPlane(sums).normal;
     }
     return Eigen::Vector3f::Zero();
   }
@@ -72,16 +65,6 @@ class Neighbourhood {
         }
       }
     }
-  }
-
-  [[nodiscard]] static Eigen::Vector3f planeNormal(const Eigen::Vector3d& first,
-                                                   const Eigen::Matrix3d& second, double count) {
-    const Eigen::Vector3d mean = first / count;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(second / count - mean * mean.transpose());
-    const Eigen::Vector3d& variances = solver.eigenvalues();
-    if (!(variances[0] < kPlanar * kPlanar * variances[1])) return Eigen::Vector3f::Zero();
-    return solver.eigenvectors().col(0).cast<float>();
   }
 
   CellKey origin_;

@@ -40,7 +40,8 @@ double PlanckConstants::signal(double celsius) const {
 double PlanckConstants::celsius(double signal) const {
   const double radiated = signal + o;
   const double kelvin = b / portableLog(r1 / (r2 * radiated) + f);
-  return radiated > 0.0 && kelvin > 0.0 ? kelvin + kAbsoluteZero : kNan;
+  constexpr double hottest = 1e6;  // constants of damaged files give any heat, or one without end
+  return radiated > 0.0 && kelvin > 0.0 && kelvin < hottest ? kelvin + kAbsoluteZero : kNan;
 }
 
 void RadiometricParameters::validate() const {

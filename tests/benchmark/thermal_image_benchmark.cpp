@@ -1,10 +1,9 @@
 // From the bytes of a file to Celsius on one core: opening, decoding, temperatures. `warm` keeps the table of
 // temperatures from image to image, as a mission does; `cold` makes it anew. The files are the project's own
-// (calm scenes); with THERMOVOX_DATA set, real ones too.
+// (calm scenes); files named on the command line are measured too.
 
 #include <benchmark/benchmark.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -58,23 +57,13 @@ void addOwnFiles(int width, int height) {
       .width = width, .height = height, .counts = test::calmCounts(width, height), .parameters = test::e40()};
   const auto jpeg = [&](test::FlirPacking packing) {
     file.packing = packing;
-    return radiometricJpeg(flirFrame(file));
+    return test::radiometricJpeg(flirFrame(file));
   };
   add("raw_" + size, jpeg(test::FlirPacking::raw_little));
   add("png_" + size, jpeg(test::FlirPacking::png));
   add("jpeg_ls_" + size, jpeg(test::FlirPacking::jpeg_ls));
   for (std::uint16_t& count : file.counts) count = static_cast<std::uint16_t>(count + 12000);  // 0.01 K each
   add("tiff_" + size, tiffOf(file));
-}
-
-void addRecordings() {
-  const char* folder = std::getenv("THERMOVOX_DATA");
-  if (folder == nullptr) return;
-  for (const char* name : {"rjpeg/Flir_E40.jpg", "rjpeg/FLIR8565.jpg", "rjpeg/003.jpg", "rjpeg/IR_2412.jpg",
-                           "tiff/FLIR_DUO_PRO_640_R_13mm.TIFF", "video/SampleCSQ.csq"}) {
-    const auto file = std::filesystem::path(folder) / "thermal" / name;
-    if (std::filesystem::exists(file)) add(name, bytesOf(file));
-  }
 }
 
 }  // namespace
@@ -84,6 +73,8 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   thermovox::bench::addOwnFiles(160, 120);
   thermovox::bench::addOwnFiles(640, 512);
-  thermovox::bench::addRecordings();
+  for (int i = 1; i < argc; ++i) {  // what is no option is a file
+    thermovox::bench::add(std::filesystem::path(argv[i]).filename(), thermovox::bench::bytesOf(argv[i]));
+  }
   benchmark::RunSpecifiedBenchmarks();
 }

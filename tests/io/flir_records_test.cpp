@@ -128,6 +128,14 @@ TEST(ReadFlirFrame, TakesTheUsualValueForWhatIsMissingOrCannotBe) {
   parameters.validate();
 }
 
+TEST(ReadFlirFrame, GivesNoTemperatureWithoutEndByDamagedConstants) {
+  FlirFile file = calmFile();
+  file.parameters.planck.r2 = 1e27;
+  file.parameters.planck.o = 1.8e9;
+  const ThermalImage image = CelsiusDecoder().decode(readFrame(flirFrame(file)), "frame");
+  for (const float celsius : image.celsius) EXPECT_TRUE(std::isnan(celsius)) << celsius;
+}
+
 TEST(ReadFlirFrame, LeavesOutWhatAnOlderCameraDoesNotWrite) {
   FlirFile file = calmFile();
   file.camera_info_size = 0x310;  // no time; the constants are there

@@ -22,7 +22,7 @@ void paintOnce(const std::vector<const ThermalMap*>& scene_maps, ThermalImage im
   const ThermalView view(frameOf(std::move(image), Time(std::chrono::seconds(7))), Pose{}, camera);
   SceneSurfaces scene(scene_maps);
   const SceneView scene_view(camera.camera, Pose{}, scene, paintRange(camera, map.resolution()), {});
-  paint(view, camera, scene_view, 0.01, map);
+  paint(view, camera, scene_view, {.range_sigma = 0.01}, map);
 }
 template <std::invocable<int, int> Celsius>
 void paintOnce(const std::vector<const ThermalMap*>& scene_maps, const Celsius& celsius, ThermalMap& map) {
