@@ -7,17 +7,19 @@
 packages_build=(
   g++ cmake ninja-build
   libeigen3-dev libpcl-dev liboctomap-dev libopencv-dev
-  libyaml-cpp-dev libtiff-dev libcharls-dev libdeflate-dev libsqlite3-dev libzstd-dev
+  libyaml-cpp-dev libtiff-dev libdeflate-dev libsqlite3-dev libzstd-dev
   libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
 )
 # What the tests and benchmarks need besides. ccache and mold are used where they are found.
-packages_test=(libgtest-dev libgmock-dev libbenchmark-dev libceres-dev libbz2-dev libopenvdb-dev python3 sqlite3 ccache mold)
+packages_test=(libgtest-dev libgmock-dev libbenchmark-dev libcharls-dev libceres-dev libbz2-dev libopenvdb-dev python3 sqlite3 ccache mold)
 # Sanitizers and fuzz targets; llvm-14 has the symbolizer that gives their reports names and lines.
 packages_sanitizers=(clang libclang-rt-14-dev llvm-14)
 # Formatting, and the scripts' own checks.
 packages_lint=(cmake clang-format-14 shellcheck)
 # clang-tidy, for the preset `tidy` (by hand).
 packages_tidy=(clang clang-tidy-14)
+# What decoding of thermal images is compared with, by hand.
+packages_peers=(libimage-exiftool-perl python3-numpy)
 # Programs to look at results with: CloudCompare, octovis, PCL's viewer.
 packages_view=(cloudcompare octovis pcl-tools)
 

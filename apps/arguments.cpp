@@ -7,6 +7,12 @@
 
 namespace thermovox {
 
+void addPalette(CLI::App& verb, Palette& palette) {
+  std::map<std::string, Palette> choices;
+  for (const auto& [name, value] : namedPalettes()) choices.emplace(name, value);
+  addChoice(verb, "--palette", palette, choices, "Colours of the temperatures (default inferno)");
+}
+
 std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span) {
   if (span.size() != 2) return std::nullopt;
   if (!(std::isfinite(span[0]) && std::isfinite(span[1]) && span[0] < span[1])) {

@@ -18,8 +18,8 @@ class UsageError : public Error {
 };
 
 /// An option that is one of several words. Help and refusals show the words and nothing else.
-template <typename Value>
-CLI::Option* addChoice(CLI::App& verb, const std::string& name, Value& value,
+template <typename Value, typename Target>
+CLI::Option* addChoice(CLI::App& verb, const std::string& name, Target& value,
                        const std::map<std::string, Value>& choices, const std::string& help) {
   std::string words;
   for (const auto& [word, meaning] : choices) words += (words.empty() ? "" : "|") + word;
@@ -30,6 +30,9 @@ CLI::Option* addChoice(CLI::App& verb, const std::string& name, Value& value,
   };
   return verb.add_option_function<std::string>(name, choose, help)->type_name(words);
 }
+
+/// `--palette NAME`.
+void addPalette(CLI::App& verb, Palette& palette);
 
 /// `--span LO HI`. None where it was not given; throws UsageError unless both are finite and LO < HI.
 [[nodiscard]] std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span);

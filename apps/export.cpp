@@ -20,11 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::map<std::string, Palette> kPalettes{{"inferno", Palette::inferno},
-                                               {"ironbow", Palette::ironbow},
-                                               {"rainbow", Palette::rainbow},
-                                               {"grey", Palette::grey}};
-
 struct ExportArgs {
   fs::path station;
   fs::path out;
@@ -79,8 +74,7 @@ void addExport(CLI::App& app) {
   verb->add_option("--span", args->span,
                    "Temperatures at the two ends of the palette, LO HI [C] (default: 2nd to 98th percentile)")
       ->expected(2);
-  addChoice(*verb, "--palette", args->scale.palette, kPalettes,
-            "Colours of the temperatures (default inferno)");
+  addPalette(*verb, args->scale.palette);
   verb->add_flag("--force", args->force, "Replace OUT when it is there");
   verb->callback([args] { runExport(*args); });
 }

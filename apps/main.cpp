@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   thermovox::addMap(app);
   thermovox::addMerge(app);
   thermovox::addExport(app);
+  thermovox::addImage(app);
   thermovox::addInfo(app);
   thermovox::addOverlay(app);
   try {

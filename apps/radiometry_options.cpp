@@ -16,28 +16,26 @@ const std::map<std::string, AtmosphereModel> kModels{
 }  // namespace
 
 void addRadiometryOptions(CLI::App& verb, RadiometricOverrides& overrides) {
-  verb.add_option("--emissivity", overrides.emissivity,
-                  "Emissivity of the objects, 0.05 to 1, instead of what radiometric files say");
-  verb.add_option("--reflected", overrides.reflected, "Temperature that the objects mirror [C], likewise");
+  const CLI::Range above_absolute_zero(-273.14, 9999.0);
+  const CLI::Range share(0.05, 1.0);
+  verb.add_option("--emissivity", overrides.emissivity, "Of the objects, 0.05 to 1 (default: the file's)")
+      ->check(share);
+  verb.add_option("--reflected", overrides.reflected,
+                  "Temperature of what the objects mirror [C] (default: the file's)")
+      ->check(above_absolute_zero);
   verb.add_option("--atmosphere-temperature", overrides.atmosphere_temperature,
-                  "Temperature of the air [C], likewise");
-  verb.add_option("--humidity", overrides.humidity, "Relative humidity of the air, 0 to 1, likewise");
+                  "Of the air [C] (default: the file's)")
+      ->check(above_absolute_zero);
+  verb.add_option("--humidity", overrides.humidity, "Of the air, 0 to 1 (default: the file's)")
+      ->check(CLI::Range(0.0, 1.0));
   verb.add_option("--window-temperature", overrides.window_temperature,
-                  "Temperature of a window before the lens [C], likewise");
+                  "Of a window before the lens [C] (default: the file's)")
+      ->check(above_absolute_zero);
   verb.add_option("--window-transmission", overrides.window_transmission,
-                  "Transmission of that window, 0.05 to 1 (1: no window), likewise");
-  verb.add_option_function<std::string>(
-          "--atmosphere-model",
-          [&overrides](const std::string& word) {
-            const auto model = kModels.find(word);
-            if (model == kModels.end()) {
-              throw UsageError("--atmosphere-model: found '" + word + "', expected half|single");
-            }
-            overrides.model = model->second;
-          },
-          "How the air attenuates: single (one stretch, as the cameras' manuals have it) or half (two halves "
-          "about a window, as Thermimage has it) (default single)")
-      ->type_name("half|single");
+                  "Of a window before the lens, 0.05 to 1; 1 is none (default: the file's)")
+      ->check(share);
+  addChoice(verb, "--atmosphere-model", overrides.model, kModels,
+            "The window at the lens, or in the middle of the air as Thermimage has it (default single)");
 }
 
 void checkRadiometry(const RadiometricOverrides& overrides) {

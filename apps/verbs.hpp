@@ -11,6 +11,7 @@ void addSimulate(CLI::App& app);
 void addMap(CLI::App& app);
 void addMerge(CLI::App& app);
 void addExport(CLI::App& app);
+void addImage(CLI::App& app);
 void addInfo(CLI::App& app);
 void addOverlay(CLI::App& app);
 

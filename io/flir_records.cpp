@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
+#include <bit>
 #include <cstdlib>
 #include <string_view>
 #include <utility>
@@ -65,23 +65,33 @@ std::uint16_t swapped(std::uint16_t count) {
 struct Roughness {
   std::uint64_t as_it_is = 0;
   std::uint64_t swapped = 0;
-  bool tells = false;  ///< both bytes take many values; otherwise the steps say nothing about their order
+  bool tells = false;  ///< both bytes vary; otherwise the steps say nothing about their order
 };
 
 Roughness roughnessOf(const CountsPicture& picture) {
   Roughness roughness;
-  std::bitset<256> high;
-  std::bitset<256> low;
-  for (std::size_t i = 0; i < picture.counts.size(); ++i) {
-    const std::uint16_t count = picture.counts[i];
-    high.set(count >> 8);
-    low.set(count & 0xFF);
-    if (i % static_cast<std::size_t>(picture.width) == 0) continue;
-    const std::uint16_t before = picture.counts[i - 1];
-    roughness.as_it_is += static_cast<std::uint64_t>(std::abs(count - before));
-    roughness.swapped += static_cast<std::uint64_t>(std::abs(swapped(count) - swapped(before)));
+  const auto width = static_cast<std::size_t>(picture.width);
+  std::uint16_t any = 0;  // bits that are set somewhere, and those that are set everywhere
+  std::uint16_t all = 0xFFFF;
+  for (std::size_t first = 0; first < picture.counts.size(); first += width) {
+    const std::uint16_t* row = picture.counts.data() + first;
+    std::uint32_t as_it_is = 0;  // of 65535 pixels at most
+    std::uint32_t swapped_row = 0;
+    for (std::size_t u = 0; u < width; ++u) {
+      any |= row[u];
+      all &= row[u];
+    }
+    for (std::size_t u = 1; u < width; ++u) {
+      as_it_is += static_cast<std::uint32_t>(std::abs(row[u] - row[u - 1]));
+      swapped_row += static_cast<std::uint32_t>(std::abs(swapped(row[u]) - swapped(row[u - 1])));
+    }
+    roughness.as_it_is += as_it_is;
+    roughness.swapped += swapped_row;
   }
-  roughness.tells = std::max(high.count(), low.count()) >= 32;
+  const auto varying = static_cast<std::uint16_t>(any & ~all);
+  const int high = std::popcount(static_cast<std::uint8_t>(varying >> 8));
+  const int low = std::popcount(static_cast<std::uint8_t>(varying));
+  roughness.tells = std::min(high, low) >= 1 && std::max(high, low) >= 5;
   return roughness;
 }
 

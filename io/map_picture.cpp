@@ -256,7 +256,7 @@ void writeMapPicture(const std::filesystem::path& path, std::span<const SurfaceP
   const PictureView view = viewOf(splats, to_viewer, frame, large);
   cv::Mat picture = toBgr(drawSplats(splats, view, backgroundOf(large)), size);
   writeCaptions(picture, points, options, scale);
-  writePng(path, picture, existing);
+  writePicture(path, picture, existing);
 }
 
 }  // namespace thermovox

@@ -28,20 +28,6 @@ TemperatureSpan distanceSpan(std::span<const OverlayPoint> points) {
   return span;
 }
 
-/// The image by the palette, `zoom` times as large.
-cv::Mat thermalPicture(const ThermalImage& image, const TemperatureSpan& span, Palette palette, int zoom) {
-  cv::Mat small(image.height, image.width, CV_8UC3);
-  for (int v = 0; v < image.height; ++v) {
-    for (int u = 0; u < image.width; ++u) {
-      const Rgb colour = colourOf(image.at(u, v), span, palette);
-      small.at<cv::Vec3b>(v, u) = {colour.b, colour.g, colour.r};
-    }
-  }
-  cv::Mat large;
-  cv::resize(small, large, {}, zoom, zoom, zoom > 1 ? cv::INTER_CUBIC : cv::INTER_AREA);
-  return large;
-}
-
 /// Place in the picture of a pixel of the image, whose centres are whole numbers.
 cv::Point2d placeOf(const Eigen::Vector2d& pixel, int zoom) {
   return {(pixel.x() + 0.5) * zoom, kHeaderPx + (pixel.y() + 0.5) * zoom};
@@ -107,7 +93,7 @@ void writeOverlayPicture(const std::filesystem::path& path, const ThermalImage& 
   const cv::Rect image_area(0, kHeaderPx, image.width * zoom, image.height * zoom);
   cv::Mat picture(image_area.height + kHeaderPx + kFooterPx, image_area.width, CV_8UC3,
                   cv::Scalar(32, 30, 28));
-  thermalPicture(image, span, options.palette, zoom).copyTo(picture(image_area));
+  paintTemperatures(image, {span, options.palette}, zoom).copyTo(picture(image_area));
   const double radius = std::clamp(0.3 * zoom, 1.5, 3.5);
   for (const OverlayPoint& point : points) {
     drawDot(picture, placeOf(point.pixel, zoom), radius,
@@ -118,7 +104,7 @@ void writeOverlayPicture(const std::filesystem::path& path, const ThermalImage& 
   }
   drawText(picture, options.title, cv::Point2d(24, 36), {.height_px = 18.0, .bold = true});
   drawScales(picture, span, options.palette, distances);
-  writePng(path, picture, existing);
+  writePicture(path, picture, existing);
 }
 
 }  // namespace thermovox

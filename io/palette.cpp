@@ -12,17 +12,41 @@ namespace {
 constexpr std::array kInferno{Rgb{0, 0, 4},      Rgb{27, 12, 65},   Rgb{74, 12, 107},  Rgb{120, 28, 109},
                               Rgb{165, 44, 96},  Rgb{207, 68, 70},  Rgb{237, 105, 37}, Rgb{251, 155, 6},
                               Rgb{247, 209, 61}, Rgb{252, 255, 164}};
+constexpr std::array kMagma{Rgb{0, 0, 4},       Rgb{24, 15, 61},   Rgb{69, 16, 119}, Rgb{114, 31, 129},
+                            Rgb{158, 47, 127},  Rgb{205, 64, 113}, Rgb{241, 96, 93}, Rgb{253, 148, 103},
+                            Rgb{254, 202, 141}, Rgb{252, 253, 191}};
+constexpr std::array kViridis{Rgb{68, 1, 84},    Rgb{72, 40, 120},  Rgb{62, 74, 137},  Rgb{49, 104, 142},
+                              Rgb{38, 130, 142}, Rgb{31, 158, 137}, Rgb{53, 183, 121}, Rgb{108, 205, 90},
+                              Rgb{181, 222, 43}, Rgb{253, 231, 37}};
+constexpr std::array kCividis{Rgb{0, 34, 78},     Rgb{18, 53, 112},   Rgb{60, 74, 108},   Rgb{87, 93, 109},
+                              Rgb{112, 113, 115}, Rgb{138, 134, 120}, Rgb{165, 156, 116}, Rgb{194, 179, 105},
+                              Rgb{225, 204, 85},  Rgb{254, 232, 56}};
 constexpr std::array kIronbow{Rgb{2, 0, 10},     Rgb{30, 0, 110},   Rgb{90, 0, 155},  Rgb{150, 0, 155},
                               Rgb{195, 25, 120}, Rgb{225, 65, 40},  Rgb{240, 110, 5}, Rgb{250, 160, 0},
                               Rgb{255, 210, 50}, Rgb{255, 250, 215}};
 constexpr std::array kRainbow{Rgb{20, 30, 160},  Rgb{0, 110, 250}, Rgb{0, 200, 220}, Rgb{40, 190, 70},
                               Rgb{190, 220, 30}, Rgb{250, 190, 0}, Rgb{240, 90, 10}, Rgb{180, 10, 20}};
 constexpr std::array kGrey{Rgb{20, 20, 20}, Rgb{240, 240, 240}};
+constexpr std::array kBlackHot{Rgb{240, 240, 240}, Rgb{20, 20, 20}};
+
+constexpr std::array kNamed{
+    NamedPalette{"inferno", Palette::inferno}, NamedPalette{"magma", Palette::magma},
+    NamedPalette{"viridis", Palette::viridis}, NamedPalette{"cividis", Palette::cividis},
+    NamedPalette{"ironbow", Palette::ironbow}, NamedPalette{"rainbow", Palette::rainbow},
+    NamedPalette{"grey", Palette::grey},       NamedPalette{"black-hot", Palette::black_hot}};
 
 std::span<const Rgb> tableOf(Palette palette) {
   switch (palette) {
     case Palette::inferno:
       return kInferno;
+    case Palette::magma:
+      return kMagma;
+    case Palette::viridis:
+      return kViridis;
+    case Palette::cividis:
+      return kCividis;
+    case Palette::black_hot:
+      return kBlackHot;
     case Palette::ironbow:
       return kIronbow;
     case Palette::rainbow:
@@ -50,11 +74,14 @@ double percentileOf(std::vector<float>& values, double percentile) {
 
 }  // namespace
 
+std::span<const NamedPalette> namedPalettes() {
+  return kNamed;
+}
+
 std::optional<Palette> paletteOf(std::string_view name) {
-  if (name == "inferno") return Palette::inferno;
-  if (name == "ironbow") return Palette::ironbow;
-  if (name == "rainbow") return Palette::rainbow;
-  if (name == "grey") return Palette::grey;
+  for (const NamedPalette& known : kNamed) {
+    if (known.name == name) return known.palette;
+  }
   return std::nullopt;
 }
 

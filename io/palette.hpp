@@ -9,11 +9,24 @@ namespace thermovox {
 
 /// Colour tables of thermal pictures. None holds 255 255 255, which OctoMap's colour tree takes for "unset".
 enum class Palette {
-  inferno,  ///< black, violet, orange, pale yellow: perceptually even (the table of matplotlib)
-  ironbow,  ///< black, blue, magenta, orange, cream: as thermal cameras show
-  rainbow,  ///< blue, cyan, green, yellow, red
-  grey,     ///< dark to light
+  inferno,    ///< black, violet, orange, pale yellow: perceptually even (the table of matplotlib)
+  magma,      ///< black, violet, pink, pale yellow: as even
+  viridis,    ///< violet, teal, green, yellow: as even
+  cividis,    ///< blue to yellow: as even, and the same to eyes that see no red or green
+  ironbow,    ///< black, blue, magenta, orange, cream: as thermal cameras show
+  rainbow,    ///< blue, cyan, green, yellow, red
+  grey,       ///< dark to light
+  black_hot,  ///< light to dark
 };
+
+/// A palette and its name in commands.
+struct NamedPalette {
+  std::string_view name;
+  Palette palette;
+};
+
+/// All of them.
+[[nodiscard]] std::span<const NamedPalette> namedPalettes();
 
 struct Rgb {
   std::uint8_t r = 0;
@@ -25,7 +38,7 @@ struct Rgb {
 /// What has no temperature is drawn in this grey.
 inline constexpr Rgb kUnknownColour{128, 128, 128};
 
-/// The palette of a name as it is written above; nullopt for any other.
+/// The palette of a name; nullopt for any other.
 [[nodiscard]] std::optional<Palette> paletteOf(std::string_view name);
 
 /// Colour at a place of the palette, 0 (cold) to 1 (hot); what lies outside takes the end's colour, NaN is

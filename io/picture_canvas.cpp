@@ -166,9 +166,26 @@ void drawTemperatureScale(cv::Mat& picture, const cv::Rect& area, const Temperat
   }
 }
 
-void writePng(const std::filesystem::path& path, const cv::Mat& picture, Existing existing) {
+cv::Mat paintTemperatures(const ThermalImage& image, const TemperatureScale& scale, int zoom) {
+  cv::Mat small(image.height, image.width, CV_8UC3);
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const Rgb colour = scale.colourOf(image.at(u, v));
+      small.at<cv::Vec3b>(v, u) = {colour.b, colour.g, colour.r};
+    }
+  }
+  cv::Mat large;
+  cv::resize(small, large, {}, zoom, zoom, zoom > 1 ? cv::INTER_CUBIC : cv::INTER_AREA);
+  return large;
+}
+
+void writePicture(const std::filesystem::path& path, const cv::Mat& picture, Existing existing) {
+  const std::string ending = endingOf(path);
+  const bool jpeg = ending == ".jpg" || ending == ".jpeg";
+  const std::vector<int> settings = jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95}
+                                         : std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, 6};
   std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) {
+  if (!cv::imencode(jpeg ? ".jpg" : ".png", picture, bytes, settings)) {
     throw DataError(path.string() + ": the picture could not be encoded, expected 8 bits a channel");
   }
   AtomicFile file(path, existing);

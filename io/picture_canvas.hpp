@@ -8,6 +8,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/palette.hpp"
+#include "projection/thermal_image.hpp"
 
 namespace thermovox {
 
@@ -33,7 +34,11 @@ void drawTemperatureScale(cv::Mat& picture, const cv::Rect& area, const Temperat
 /// Temperatures at round steps within the span, about `wanted` of them.
 [[nodiscard]] std::vector<double> roundTicks(const TemperatureSpan& span, int wanted);
 
-/// Writes a picture (8-bit BGR or grey) as PNG, whole or not at all. Throws DataError naming the file.
-void writePng(const std::filesystem::path& path, const cv::Mat& picture, Existing existing);
+/// The image by the scale's colours, 8-bit BGR, `zoom` times as large.
+[[nodiscard]] cv::Mat paintTemperatures(const ThermalImage& image, const TemperatureScale& scale, int zoom);
+
+/// Writes a picture (8-bit BGR or grey) as PNG, or as JPEG where the path ends on .jpg or .jpeg; whole or not
+/// at all. Throws DataError naming the file.
+void writePicture(const std::filesystem::path& path, const cv::Mat& picture, Existing existing);
 
 }  // namespace thermovox

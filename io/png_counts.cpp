@@ -100,12 +100,14 @@ std::vector<std::uint8_t> inflate(const std::vector<std::byte>& packed, std::siz
   return data;
 }
 
-int paeth(int left, int up, int up_left) {
-  const int from_left = std::abs(up - up_left);
-  const int from_up = std::abs(left - up_left);
-  const int from_up_left = std::abs(left + up - 2 * up_left);
-  if (from_left <= from_up && from_left <= from_up_left) return left;
-  return from_up <= from_up_left ? up : up_left;
+/// Of left, up and corner the nearest to left + up - corner, in PNG's order of precedence.
+int paeth(int left, int up, int corner) {
+  const int from_left = std::abs(up - corner);
+  const int from_up = std::abs(left - corner);
+  const int from_corner = std::abs(left + up - 2 * corner);
+  const int of_two = from_up <= from_corner ? up : corner;  // both choices without a branch
+  const bool is_left = (from_left <= from_up) & (from_left <= from_corner);
+  return is_left ? left : of_two;
 }
 
 /// Undoes the filter of a row in place; `above` is the row before it, already undone, or zeros. The distance

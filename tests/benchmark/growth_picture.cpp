@@ -77,7 +77,7 @@ void writeGrowthPicture(const std::filesystem::path& path, const std::vector<Gro
   drawCurve(picture, time, curve, &GrowthPoint::total_cpu_s);
   drawStroke(picture, time.at(0.0, 0.0), time.at(last.scans, line.seconds_a_scan * last.scans), kLine, 1);
   drawCurve(picture, memory, curve, &GrowthPoint::memory_mb);
-  writePng(path, picture, Existing::replace);
+  writePicture(path, picture, Existing::replace);
 }
 
 }  // namespace thermovox::bench

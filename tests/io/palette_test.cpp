@@ -9,7 +9,8 @@
 namespace thermovox {
 namespace {
 
-constexpr Palette kPalettes[] = {Palette::inferno, Palette::ironbow, Palette::rainbow, Palette::grey};
+constexpr Palette kPalettes[] = {Palette::inferno, Palette::magma,   Palette::viridis, Palette::cividis,
+                                 Palette::ironbow, Palette::rainbow, Palette::grey,    Palette::black_hot};
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Palette, NeverShowsTheWhiteThatOctomapTakesForUnset) {
@@ -37,8 +38,9 @@ TEST(Palette, ColoursChangeInSmallSteps) {
   }
 }
 
-TEST(Palette, InfernoAndIronbowGrowBrighter) {
-  for (const Palette palette : {Palette::inferno, Palette::ironbow, Palette::grey}) {
+TEST(Palette, AllButRainbowAndBlackHotGrowBrighter) {
+  for (const Palette palette : {Palette::inferno, Palette::magma, Palette::viridis, Palette::cividis,
+                                Palette::ironbow, Palette::grey}) {
     double previous = -1.0;
     for (int i = 0; i <= 50; ++i) {
       const Rgb c = colourAt(palette, i / 50.0);
@@ -55,6 +57,8 @@ TEST(Palette, NamesAreThoseOfTheCommandLine) {
   EXPECT_EQ(paletteOf("rainbow"), Palette::rainbow);
   EXPECT_EQ(paletteOf("grey"), Palette::grey);
   EXPECT_FALSE(paletteOf("Inferno"));
+  EXPECT_EQ(namedPalettes().size(), std::size(kPalettes));
+  for (const auto& [name, palette] : namedPalettes()) EXPECT_EQ(paletteOf(name), palette);
 }
 
 TEST(PercentileSpan, LeavesOutNanAndTheTails) {

@@ -1,0 +1,79 @@
+#include "io/thermal_picture.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+
+#include "projection/error.hpp"
+#include "tests/support/recordings.hpp"
+
+namespace thermovox {
+namespace {
+
+/// Warm on the left, cold on the right, one pixel not known.
+ThermalImage twoHalves() {
+  ThermalImage image{.width = 80, .height = 60, .celsius = std::vector<float>(80 * 60)};
+  for (std::size_t i = 0; i < image.celsius.size(); ++i) image.celsius[i] = i % 80 < 40 ? 30.0F : 10.0F;
+  return image;
+}
+
+void expectColour(const cv::Mat& picture, cv::Point place, const Rgb& colour, int tolerance) {
+  const auto pixel = picture.at<cv::Vec3b>(place);
+  EXPECT_NEAR(pixel[2], colour.r, tolerance);
+  EXPECT_NEAR(pixel[1], colour.g, tolerance);
+  EXPECT_NEAR(pixel[0], colour.b, tolerance);
+}
+
+TEST(WriteThermalPicture, PaintsByPaletteAndSpanAsPngOrJpeg) {
+  const test::TestFolder folder;
+  ThermalImage image = twoHalves();
+  for (int v = 0; v < 10; ++v) {
+    for (int u = 0; u < 10; ++u) image.celsius[static_cast<std::size_t>(80 * v + u)] = NAN;
+  }
+  for (const auto& [name, tolerance] : {std::pair("p.png", 0), std::pair("p.jpg", 6)}) {
+    for (const Palette palette : {Palette::inferno, Palette::grey, Palette::ironbow}) {
+      writeThermalPicture(folder / name, image, {palette, {0.0, 40.0}, ""}, Existing::replace);
+      const cv::Mat picture = cv::imread((folder / name).string());
+      ASSERT_EQ(picture.cols, 960) << "twelve times as large";
+      expectColour(picture, {240, 500}, colourAt(palette, 0.75), tolerance);
+      expectColour(picture, {700, 500}, colourAt(palette, 0.25), tolerance);
+      expectColour(picture, {20, 20}, kUnknownColour, tolerance);
+    }
+  }
+}
+
+TEST(WriteThermalPicture, HasAScaleBelow) {
+  const test::TestFolder folder;
+  writeThermalPicture(folder / "p.png", twoHalves(), {Palette::grey, {0.0, 40.0}, "a note"},
+                      Existing::refuse);
+  const cv::Mat picture = cv::imread((folder / "p.png").string());
+  ASSERT_GT(picture.rows, 720 + 60);
+  const int row = 720 + 28;  // through the bar
+  expectColour(picture, {70, row}, colourAt(Palette::grey, 0.0), 6);
+  expectColour(picture, {picture.cols - 45, row}, colourAt(Palette::grey, 1.0), 6);
+}
+
+TEST(WriteThermalPicture, TakesImagesOfAnySize) {
+  const test::TestFolder folder;
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 2000), std::pair(1024, 3)}) {
+    const ThermalImage image{.width = width,
+                             .height = height,
+                             .celsius = std::vector<float>(static_cast<std::size_t>(width * height), 20.0F)};
+    writeThermalPicture(folder / "p.png", image, {Palette::inferno, {19.0, 21.0}, "x"}, Existing::replace);
+    const cv::Mat picture = cv::imread((folder / "p.png").string());
+    EXPECT_GE(picture.cols, width);
+    EXPECT_GE(picture.rows, height);
+  }
+}
+
+TEST(WriteThermalPicture, KeepsAPictureThatIsThere) {
+  const test::TestFolder folder;
+  folder.write("p.png", "mine");
+  EXPECT_THROW(writeThermalPicture(folder / "p.png", twoHalves(), {}, Existing::refuse), DataError);
+  EXPECT_EQ(test::bytesOf(folder / "p.png"), "mine");
+}
+
+}  // namespace
+}  // namespace thermovox
