@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/arguments.hpp"
+#include "apps/image_edges.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
 #include "io/celsius_decoder.hpp"
@@ -28,6 +29,7 @@ struct ImageArgs {
   fs::path in;
   fs::path out;
   RadiometricOverrides overrides;
+  EdgeArgs edges;
   std::optional<double> celsius_per_count;
   double celsius_offset = kAbsoluteZero;
   bool counts = false;
@@ -50,6 +52,8 @@ void checkUsage(const ImageArgs& args) {
   checkEnding(args.out, {".tiff", ".tif", ".png", ".jpg", ".jpeg"});
   if (args.counts && !isTiff(args.out)) throw UsageError("--counts: OUT has to be a .tiff");
   if (args.all && !isTiff(args.out)) throw UsageError("--all: OUT has to be a .tiff");
+  if (args.edges.wanted() && isTiff(args.out))
+    throw UsageError("--edges, --visible: OUT has to be a .png or .jpg");
   if (args.counts && (args.overrides.any() || args.celsius_per_count))
     throw UsageError("--counts: the counts are written as they are, whatever they mean; leave the rest out");
   const auto& [low, high] = std::pair(args.percentile[0], args.percentile[1]);
@@ -136,7 +140,10 @@ std::string writeFrames(const ImageArgs& args, ThermalRecording& recording, int 
     if (tiff) {
       tiff->add(image);
     } else {
-      writeThermalPicture(args.out, image, {args.palette, spanOf(args, image), told}, args.existing());
+      writeThermalPicture(
+          args.out, image,
+          {args.palette, spanOf(args, image), told, registeredPicture(args.edges, raw, args.in.string())},
+          args.existing());
     }
   }
   if (tiff) tiff->commit();
@@ -224,6 +231,7 @@ void addImage(CLI::App& app) {
                    "The same as percentiles of the image, LO HI [0 to 100] (default 1 99.9)")
       ->expected(2)
       ->excludes(span);
+  addEdges(*verb, args->edges);
   verb->add_flag("--force", args->force, "Replace OUT when it is there");
   verb->callback([args] { runImage(*args); });
 }

@@ -115,6 +115,9 @@ void addSimulate(CLI::App& app) {
   verb->add_option("--blur", options.blur_px, "Optics and pixel together, one sigma [px]")
       ->capture_default_str();
   verb->add_option("--frame-rate", options.frame_rate, "Thermal frames a second")->capture_default_str();
+  verb->add_flag_callback(
+      "--visible", [&options] { options.visible = simulate::SimulationOptions::VisibleCamera::present; },
+      "A visible camera beside the thermal one, 640 x 480: its pictures and its place in the rig");
   verb->add_option("--range-sigma", options.range_sigma, "Range noise, one sigma [m]")->capture_default_str();
   verb->add_flag("--force", args->force, "Replace a mission that is there");
   verb->callback([args] { runSimulate(*args); });

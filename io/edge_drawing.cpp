@@ -40,9 +40,9 @@ int strongEdge(const cv::Mat& edges) {
 }  // namespace
 
 void drawEdges(cv::Mat& painted, const RegisteredPicture& visible, int zoom) {
-  constexpr int kNoise = 2;           // levels of the visible picture that are no edge
-  constexpr double kInk = 90.0;       // levels that a strong edge lightens or darkens the picture by
-  constexpr double kLargestGain = 8;  // of an even picture's faint edges
+  constexpr int kNoise = 2;            // levels of the visible picture that are no edge
+  constexpr double kInk = 90.0;        // levels that a strong edge lightens or darkens the picture by
+  constexpr double kLargestGain = 12;  // of an even picture's faint edges
   constexpr double kMostInk = 130.0;
   const cv::Mat edges = highPass(resample(visible, zoom), zoom);
   const double gain = std::min(kLargestGain, kInk / std::max(1, strongEdge(edges)));

@@ -35,6 +35,10 @@ struct SimulationOptions {
   int supersampling = 3;    ///< rays a pixel and axis
   double frame_rate = 5.0;  ///< thermal frames a second
 
+  /// Whether a visible camera flies along.
+  enum class VisibleCamera { absent, present };
+  VisibleCamera visible = VisibleCamera::absent;  ///< takes its pictures together with the thermal frames
+
   double range_sigma = 0.01;    ///< along the ray, one sigma, metres
   double outlier_share = 0.01;  ///< of a cloud's points: weak echoes off the surface, 0..1
   double pose_rate = 100.0;     ///< poses a second
