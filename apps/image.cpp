@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/arguments.hpp"
+#include "apps/image_edges.hpp"
 #include "apps/image_job.hpp"
 #include "apps/image_watch.hpp"
 #include "apps/radiometry_options.hpp"
@@ -50,6 +51,7 @@ void checkUsage(ImageArgs& args) {
     throw UsageError("--watch: OUT lies in the folder that is watched; expected a folder elsewhere");
   if (job.counts && !writes_tiff) throw UsageError("--counts: OUT has to be a .tiff");
   if (job.all && !writes_tiff) throw UsageError("--all: OUT has to be a .tiff");
+  if (job.edges.wanted() && writes_tiff) throw UsageError("--edges, --visible: OUT has to be a .png or .jpg");
   checkRadiometry(job.overrides);
   if (job.counts && (job.overrides.any() || args.celsius_per_count))
     throw UsageError("--counts: the counts are written as they are, whatever they mean; leave the rest out");
@@ -154,6 +156,7 @@ void addImage(CLI::App& app) {
           ->check(CLI::NonNegativeNumber);
   verb->add_flag("--all", args->job.all, "All frames, as a TIFF of so many pages")->excludes(frame);
   addLooks(*verb, *args);
+  addEdges(*verb, args->job.edges);
   addWatch(*verb, *args);
   verb->add_flag_callback(
       "--force", [args] { args->job.existing = Existing::replace; }, "Replace OUT when it is there");

@@ -95,7 +95,9 @@ class FrameWriter {
     if (tiff_) {
       tiff_->add(image);
     } else {
-      writeThermalPicture(out_, image, {job_.palette, spanOf(job_, image), told}, job_.existing);
+      writeThermalPicture(out_, image,
+                          {job_.palette, spanOf(job_, image), told, registeredPicture(job_.edges, raw, name)},
+                          job_.existing);
     }
     return size + ", " + told;
   }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/image_edges.hpp"
 #include "io/atomic_file.hpp"
 #include "io/palette.hpp"
 #include "projection/radiometric_overrides.hpp"
@@ -23,7 +24,8 @@ struct ImageJob {
   struct Percentiles {
     double low = 1.0;
     double high = 99.9;
-  } percentile;  ///< of the image, where no span is given
+  } percentile;    ///< of the image, where no span is given
+  EdgeArgs edges;  ///< drawn into pictures
   Existing existing = Existing::refuse;
 };
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "apps/arguments.hpp"
+#include "apps/overlay_edges.hpp"
 #include "apps/progress.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
@@ -28,13 +30,15 @@ struct OverlayArgs {
   fs::path out;
   std::size_t every = 1;
   std::vector<double> span;
+  bool edges = true;
   bool force = false;
 };
 
 /// The points of one frame, with what is needed to choose among them.
 struct FramePoints {
   std::vector<OverlayPoint> points;
-  std::vector<Duration> from_frame;  ///< how far in time each return is from the frame
+  std::vector<Duration> from_frame;           ///< how far in time each return is from the frame
+  std::vector<Eigen::Vector3d> places_world;  ///< metres
 };
 
 using Order = bool (*)(const OverlayPoint&, const OverlayPoint&);
@@ -71,6 +75,15 @@ void choosePoints(FramePoints& frame, LaserKind kind, const ThermalImage& image)
   }
 }
 
+/// Whether there are visible pictures whose edges can be drawn; says so where only the rig is in the way.
+bool hasVisible(const OpenedMission& opened) {
+  if (!opened.visible_list) return false;
+  if (opened.mission.rig.visible_camera) return true;
+  spdlog::warn("{}: has no visible_camera, so the edges of the mission's visible pictures are not drawn",
+               opened.rig_file.string());
+  return false;
+}
+
 /// Gathers the coloured points by frame and draws a frame once no later return can belong to it.
 class OverlaySeries {
  public:
@@ -83,6 +96,7 @@ class OverlaySeries {
         frames_(std::move(frames)),
         folder_(std::move(folder)),
         table_(folder_ / "overlay.csv", Existing::refuse) {
+    if (args.edges && hasVisible(opened)) edges_.emplace(opened, frames_->period());
     table_.write("timestamp,picture,point,u,v,temperature,sigma,range\n");
   }
 
@@ -93,6 +107,7 @@ class OverlaySeries {
       FramePoints& gathered = gathered_[frame];
       gathered.points.push_back(
           {point.colour->pixel, point.placed.range, point.colour->celsius, point.colour->sigma, ""});
+      gathered.places_world.push_back(point.placed.p_world);
       const Time stamp = point.placed.stamp;
       gathered.from_frame.push_back(stamp < frame ? frame - stamp : stamp - frame);
     }
@@ -103,7 +118,11 @@ class OverlaySeries {
     drawBefore(Time::max());
     table_.commit();
   }
-  [[nodiscard]] std::size_t pictures() const { return pictures_; }
+  [[nodiscard]] std::string summary() const {
+    const std::string edges =
+        edges_ ? fmt::format(", {} with the edges of a visible one", with_edges_) : std::string();
+    return fmt::format("{} pictures{}, chosen points in overlay.csv", pictures_, edges);
+  }
 
  private:
   void drawBefore(Time stamp) {
@@ -123,6 +142,8 @@ class OverlaySeries {
     OverlayOptions options{
         .title = fmt::format("{}   frame {}   {} s", name_, frame_number_, formatTime(frame.stamp))};
     options.span = spanFrom(args_.span);
+    if (edges_) options.visible = edges_->on(frame.stamp, gathered.places_world);
+    if (options.visible) ++with_edges_;
     writeOverlayPicture(folder_ / picture, *frame.image, gathered.points, options, Existing::refuse);
     for (const OverlayPoint& point : gathered.points) {
       if (point.label.empty()) continue;
@@ -142,7 +163,9 @@ class OverlaySeries {
   AtomicFile table_;
   std::map<Time, FramePoints> gathered_;
   std::size_t frame_number_ = 0;
+  std::optional<OverlayEdges> edges_;
   std::size_t pictures_ = 0;
+  std::size_t with_edges_ = 0;
 };
 
 /// "overlays/" is the folder "overlays".
@@ -212,16 +235,18 @@ void runOverlay(OverlayArgs& args) {
   }
   series.finish();
   partial.putIntoPlace();
-  std::cout << args.out.string() << ": " << series.pictures() << " pictures, chosen points in overlay.csv\n";
+  std::cout << args.out.string() << ": " << series.summary() << '\n';
 }
 
 }  // namespace
 
 void addOverlay(CLI::App& app) {
   auto args = std::make_shared<OverlayArgs>();
-  CLI::App* verb = app.add_subcommand("overlay",
-                                      "Draw the laser points on the thermal images, with temperature [C] and "
-                                      "distance [m] beside chosen points.");
+  CLI::App* verb =
+      app.add_subcommand("overlay",
+                         "Draw the laser points on the thermal images, with temperature [C] and "
+                         "distance [m] beside chosen points, and the edges of the visible pictures "
+                         "(visible.csv) where the rig has a visible camera.");
   verb->add_option("MISSION", args->mission, "Mission folder")->required();
   verb->add_option("OUT_DIR", args->out, "Folder for the pictures (PNG) and overlay.csv")->required();
   verb->add_option("--every", args->every, "Draw every so many frames")
@@ -230,6 +255,7 @@ void addOverlay(CLI::App& app) {
   verb->add_option("--span", args->span,
                    "Temperatures at the two ends of the palette, LO HI [C] (default: of each image)")
       ->expected(2);
+  verb->add_flag("!--no-edges", args->edges, "Leave the edges of the visible pictures out");
   verb->add_flag("--force", args->force, "Replace overlays that are there");
   verb->callback([args] { runOverlay(*args); });
 }

@@ -124,6 +124,9 @@ void addSimulate(CLI::App& app) {
   verb->add_option("--air", options.air, "Temperature of the air before radiometric frames [C]")
       ->capture_default_str();
   verb->add_option("--humidity", options.humidity, "Its relative humidity, 0 to 1")->capture_default_str();
+  verb->add_flag_callback(
+      "--visible", [&options] { options.visible = simulate::SimulationOptions::VisibleCamera::present; },
+      "A visible camera beside the thermal one, 640 x 480: its pictures and its place in the rig");
   verb->add_option("--range-sigma", options.range_sigma, "Range noise, one sigma [m]")->capture_default_str();
   verb->add_flag("--force", args->force, "Replace a mission that is there");
   verb->callback([args] { runSimulate(*args); });

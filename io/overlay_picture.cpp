@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "io/edge_drawing.hpp"
 #include "io/picture_canvas.hpp"
 
 namespace thermovox {
@@ -93,7 +94,9 @@ void writeOverlayPicture(const std::filesystem::path& path, const ThermalImage& 
   const cv::Rect image_area(0, kHeaderPx, image.width * zoom, image.height * zoom);
   cv::Mat picture(image_area.height + kHeaderPx + kFooterPx, image_area.width, CV_8UC3,
                   cv::Scalar(32, 30, 28));
-  paintTemperatures(image, {span, options.palette}, zoom).copyTo(picture(image_area));
+  cv::Mat painted = paintTemperatures(image, {span, options.palette}, zoom);
+  if (options.visible) drawEdges(painted, *options.visible, zoom);
+  painted.copyTo(picture(image_area));
   const double radius = std::clamp(0.3 * zoom, 1.5, 3.5);
   for (const OverlayPoint& point : points) {
     drawDot(picture, placeOf(point.pixel, zoom), radius,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/palette.hpp"
+#include "io/visible_edges.hpp"
 #include "projection/thermal_image.hpp"
 
 namespace thermovox {
@@ -26,6 +28,7 @@ struct OverlayOptions {
   std::string title;
   Palette palette = Palette::inferno;
   std::optional<TemperatureSpan> span;  ///< Celsius; default: the image's 1st to 99.9th percentile
+  std::shared_ptr<const RegisteredPicture> visible;  ///< whose edges are drawn into the image; may be null
   int width_px = 1280;  ///< of the picture; the image is enlarged by a whole factor to about it
 };
 

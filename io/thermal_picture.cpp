@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/edge_drawing.hpp"
 #include "io/picture_canvas.hpp"
 
 namespace thermovox {
@@ -27,7 +28,8 @@ void drawScale(cv::Mat& picture, int top, const TemperatureScale& scale) {
 void writeThermalPicture(const std::filesystem::path& path, const ThermalImage& image,
                          const ThermalPictureOptions& options, Existing existing) {
   const int zoom = std::max(1, kUsualEdgePx / std::max(image.width, image.height));
-  const cv::Mat painted = paintTemperatures(image, {options.span, options.palette}, zoom);
+  cv::Mat painted = paintTemperatures(image, {options.span, options.palette}, zoom);
+  if (options.visible) drawEdges(painted, *options.visible, zoom);
   const int footer = kScaleHeightPx + (options.note.empty() ? 0 : kNoteHeightPx);
   const int width = std::max(painted.cols, kNarrowestPx);
   cv::Mat picture(painted.rows + footer, width, CV_8UC3, cv::Scalar(32, 30, 28));

@@ -1,18 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "io/atomic_file.hpp"
 #include "io/palette.hpp"
+#include "io/visible_edges.hpp"
 #include "projection/thermal_image.hpp"
 
 namespace thermovox {
 
 struct ThermalPictureOptions {
   Palette palette = Palette::inferno;
-  TemperatureSpan span;  ///< Celsius
-  std::string note;      ///< a line below the scale; may be empty
+  TemperatureSpan span;                              ///< Celsius
+  std::string note;                                  ///< a line below the scale; may be empty
+  std::shared_ptr<const RegisteredPicture> visible;  ///< whose edges are drawn into the image; may be null
 };
 
 /// Draws a thermal image by a palette, small ones enlarged by a whole factor, with a scale in C below it.

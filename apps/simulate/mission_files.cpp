@@ -12,6 +12,8 @@
 #include "apps/simulate/radiometric_jpeg.hpp"
 #include "apps/simulate/simulated_rig.hpp"
 #include "apps/simulate/thermal_render.hpp"
+#include "apps/simulate/visible_render.hpp"
+#include "io/picture_canvas.hpp"
 #include "io/rig_file.hpp"
 
 namespace thermovox::simulate {
@@ -42,6 +44,14 @@ const char* laserFile(LaserKind kind) {
       break;
   }
   return "clouds.csv";
+}
+
+/// The list of the files of all frames.
+std::string frameTable(const Simulation& simulation, const char* folder, const char* ending) {
+  std::string table = "timestamp,file\n";
+  for (std::size_t frame = 0; frame < simulation.frameCount(); ++frame)
+    table += formatTime(simulation.frameStamp(frame)) + "," + numbered(folder, frame, ending) + "\n";
+  return table;
 }
 
 /// One row of the laser's table, and how many echoes it stands for.
@@ -104,6 +114,7 @@ void writeDescriptions(const Simulation& simulation, const std::string& name,
   const DeclaredErrors& errors = simulation.options().errors;
   std::string text =
       "name: \"" + name + "\"\nrig: rig.yaml\ntrajectory: trajectory.tum\nthermal: thermal.csv\n";
+  if (simulation.rig().visible_camera) text += "visible: visible.csv\n";
   text += std::string("laser: ") + laserFile(simulation.options().laser) + "\n";
   if (errors.pose_rotation_sigma > 0.0 || errors.pose_translation_sigma > 0.0) {
     text += formatted("pose_sigma: {rotation: %.9g, translation: %.9g}\n", errors.pose_rotation_sigma,
@@ -139,11 +150,20 @@ void writeThermalFrames(const Simulation& simulation, const std::filesystem::pat
       writeThermalTiff(file, width, counts);
     }
   });
-  std::string table = "timestamp,file\n";
-  for (std::size_t frame = 0; frame < simulation.frameCount(); ++frame) {
-    table += formatTime(simulation.frameStamp(frame)) + "," + numbered("thermal", frame, ending) + "\n";
-  }
-  writeText(folder / "thermal.csv", table);
+  writeText(folder / "thermal.csv", frameTable(simulation, "thermal", ending));
+}
+
+void writeVisiblePictures(const Simulation& simulation, const std::filesystem::path& folder) {
+  std::filesystem::create_directory(folder / "visible");
+  const MountedCamera& visible = *simulation.rig().visible_camera;
+  const Camera& camera = visible.camera;
+  forEachIndex(simulation.frameCount(), simulation.options().threads, [&](std::size_t frame) {
+    const Pose T_world_camera = simulation.truePose(simulation.frameStamp(frame)) * visible.T_body_camera;
+    std::vector<std::uint8_t> luminance = renderVisible(simulation.hall(), camera, T_world_camera);
+    const cv::Mat picture(camera.height(), camera.width(), CV_8U, luminance.data());
+    writePicture(folder / numbered("visible", frame, "jpg"), picture, Existing::refuse);
+  });
+  writeText(folder / "visible.csv", frameTable(simulation, "visible", "jpg"));
 }
 
 std::size_t writeLaser(const Simulation& simulation, const std::filesystem::path& folder) {

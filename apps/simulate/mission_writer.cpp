@@ -68,6 +68,7 @@ void simulateMission(const SimulationOptions& options, const fs::path& out) {
     writeDescriptions(simulation, folder.filename().string(), new_folder);
     writeTrajectory(simulation, new_folder);
     writeThermalFrames(simulation, new_folder);
+    if (simulation.rig().visible_camera) writeVisiblePictures(simulation, new_folder);
     writeText(new_truth, truthText(simulation, writeLaser(simulation, new_folder)));
     fs::rename(new_truth, truth);
     fs::rename(new_folder, folder);

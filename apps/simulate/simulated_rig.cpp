@@ -70,6 +70,18 @@ Laser makeLaser(const SimulationOptions& options) {
   return laser;
 }
 
+/// The kind of a phone's: 640 x 480, 68 degrees across, 5 cm beside the thermal camera.
+MountedCamera makeVisibleCamera(const Eigen::Matrix3d& R_body_optical) {
+  Intrinsics in;
+  in.width_px = 640;
+  in.height_px = 480;
+  in.model = LensModel::brown_conrady;
+  in.parameters = {472.3, 471.6, 322.1, 236.8};
+  const Eigen::Quaterniond mount = rollPitchYaw(-0.5, 0.4, 0.7);
+  return {Camera(withDistortion(in, {-0.118, 0.041, 0.0006, -0.0004, 0.0})),
+          {(mount * Eigen::Quaterniond(R_body_optical)).normalized(), {0.12, 0.01, -0.02}}};
+}
+
 }  // namespace
 
 double cloudElevation(int beam) {
@@ -99,6 +111,8 @@ Rig makeRig(const SimulationOptions& options) {
   thermal.bias_sigma = options.errors.camera_bias_sigma;
   Rig rig;
   rig.thermal_camera = thermal;
+  if (options.visible == SimulationOptions::VisibleCamera::present)
+    rig.visible_camera = makeVisibleCamera(R_body_optical);
   rig.lasers.push_back(makeLaser(options));
   return rig;
 }

@@ -4,7 +4,8 @@
 
 namespace thermovox::simulate {
 
-/// The rig as its file tells it: a thermal camera of the FLIR Duo R kind, 160 x 120, and one laser of the
+/// The rig as its file tells it: a thermal camera of the FLIR Duo R kind, 160 x 120, a visible one if
+/// asked for, and one laser of the
 /// asked kind (a LIDAR-Lite, a Hokuyo UTM-30LX, a spinning 16-beam laser), each with a mounting of its own.
 [[nodiscard]] Rig makeRig(const SimulationOptions& options);
 

@@ -42,6 +42,10 @@ struct SimulationOptions {
   double air = 20.0;      ///< temperature of the air, C (rjpeg)
   double humidity = 0.5;  ///< of the air, relative, 0 to 1 (rjpeg)
 
+  /// Whether a visible camera flies along.
+  enum class VisibleCamera { absent, present };
+  VisibleCamera visible = VisibleCamera::absent;  ///< takes its pictures together with the thermal frames
+
   double range_sigma = 0.01;    ///< along the ray, one sigma, metres
   double outlier_share = 0.01;  ///< of a cloud's points: weak echoes off the surface, 0..1
   double pose_rate = 100.0;     ///< poses a second

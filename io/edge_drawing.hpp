@@ -1,0 +1,16 @@
+#pragma once
+
+// The adapter between edges and OpenCV: only the sources of pictures include it.
+
+#include <opencv2/core/mat.hpp>
+
+#include "io/visible_edges.hpp"
+
+namespace thermovox {
+
+/// Draws the edges of the visible picture into a thermal one, as light and dark lines (what is left of the
+/// brightness without its surroundings). `painted`: 8-bit BGR, the thermal image enlarged `zoom` times. The
+/// strength is that of a picture of usual contrast whatever the picture's own.
+void drawEdges(cv::Mat& painted, const RegisteredPicture& visible, int zoom);
+
+}  // namespace thermovox
