@@ -96,7 +96,8 @@ class OverlaySeries {
         frames_(std::move(frames)),
         folder_(std::move(folder)),
         table_(folder_ / "overlay.csv", Existing::refuse) {
-    if (args.edges && hasVisible(opened)) edges_.emplace(opened, frames_->period());
+    if (args.edges && hasVisible(opened))
+      edges_.emplace(opened, std::max<Duration>(frames_->period(), std::chrono::milliseconds(100)));
     table_.write("timestamp,picture,point,u,v,temperature,sigma,range\n");
   }
 

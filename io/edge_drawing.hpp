@@ -10,7 +10,8 @@ namespace thermovox {
 
 /// Draws the edges of the visible picture into a thermal one, as light and dark lines (what is left of the
 /// brightness without its surroundings). `painted`: 8-bit BGR, the thermal image enlarged `zoom` times. The
-/// strength is that of a picture of usual contrast whatever the picture's own.
+/// edges of a picture of little contrast are drawn more strongly, those near the rim of what the visible
+/// picture covers not at all.
 void drawEdges(cv::Mat& painted, const RegisteredPicture& visible, int zoom);
 
 }  // namespace thermovox
