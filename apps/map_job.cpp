@@ -228,6 +228,11 @@ class Additions {
     for (const Station::Addition& addition : additions_) maps.push_back(addition.map);
     return maps;
   }
+  [[nodiscard]] std::size_t spilledTiles() const {
+    std::size_t count = 0;
+    for (const SpillingMap& spilling : maps_) count += spilling.map.spilledTiles();
+    return count;
+  }
   [[nodiscard]] std::span<const Station::Addition> all() const { return additions_; }
 
  private:
@@ -288,6 +293,7 @@ MapResult run(MapJob& job) {
   station->addMissions(additions.all(), job.known);
   if (points) points->commit();
   result.voxels = static_cast<std::size_t>(station->counts().surfaces);
+  result.spilled_tiles = additions.spilledTiles() + (before ? before->map.spilledTiles() : 0);
   return result;
 }
 

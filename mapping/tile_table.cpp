@@ -82,6 +82,7 @@ void TileTable::trim() {
   std::vector<std::pair<std::uint64_t, TileKey>> by_use;
   for (const auto& [key, entry] : tiles_) by_use.emplace_back(entry.used, key);
   std::sort(by_use.begin(), by_use.end());
+  by_use.pop_back();  // the tile in use stays even where it exceeds the limit, or it would come back at once
   const auto most = static_cast<std::size_t>(kTrimmed * static_cast<double>(limit_bytes_));
   for (const auto& [used, key] : by_use) {
     if (bytes_ <= most) break;

@@ -32,7 +32,7 @@ class TileTable {
   void recount(std::span<const TileKey> grown);
   /// The same for a tile that has grown by so many bytes.
   void grew(const TileKey& key, std::size_t bytes);
-  /// Puts tiles into the store until the rest fits the limit; those used last stay.
+  /// Puts tiles into the store until the rest fits the limit; those used last stay, and always the very last.
   void trim();
   /// Memory of the tiles that are not in the store.
   [[nodiscard]] std::size_t memoryBytes() const;
