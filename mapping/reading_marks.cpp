@@ -1,5 +1,6 @@
 #include "mapping/reading_marks.hpp"
 
+#include <algorithm>
 #include <new>
 #include <type_traits>
 
@@ -95,6 +96,11 @@ void ReadingMarks::clear() {
   }
   used_.clear();
   table_.clear();
+}
+
+void ReadingMarks::keepAtMost(std::size_t bytes) {
+  const std::size_t kept = std::max(bytes / sizeof(Tile), used_.size());
+  if (pool_.size() > kept) pool_.resize(kept);
 }
 
 }  // namespace thermovox

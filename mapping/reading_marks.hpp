@@ -40,6 +40,10 @@ class ReadingMarks {
   [[nodiscard]] Tile* find(const TileKey& key) const;
   /// Forgets the tiles, whose bits are clear again, and keeps their memory for the next reading.
   void clear();
+  /// Gives the memory of forgotten tiles beyond so many bytes back.
+  void keepAtMost(std::size_t bytes);
+  /// Memory of the tiles, marked or forgotten, as if each bit were in use.
+  [[nodiscard]] std::size_t memoryBytes() const { return pool_.size() * sizeof(Tile); }
 
  private:
   struct Slot {

@@ -52,6 +52,20 @@ TEST(SpilledMap, IsTheSameAsOneInMemory) {
   EXPECT_TRUE(test::sameMap(in_memory, spilled));
 }
 
+TEST(SpilledMap, CountsWhatItKeepsForTheNextReading) {
+  ThermalMap map({.resolution = 0.1});
+  MemoryStore store;
+  for (const auto& reading : scatteredReadings()) map.integrate(reading, Carving::octomap);
+  const std::size_t whole = map.memoryBytes();
+  map.spillTo(store, 2 * whole);
+  EXPECT_EQ(map.memoryBytes(), whole);
+  const std::size_t spilled = map.spilledTiles();
+  map.spillTo(store, whole - 1);  // the tiles alone would fit
+  EXPECT_GT(map.spilledTiles(), spilled);
+  map.spillTo(store, 0);
+  EXPECT_LE(map.memoryBytes(), whole / 10);
+}
+
 /// Refuses to give back its first tile once it is told to.
 class FailingStore final : public TileStore {
  public:

@@ -11,7 +11,7 @@
 namespace thermovox::test {
 
 /// A store in memory.
-class MemoryStore final : public TileStore {
+class MemoryStore : public TileStore {
  public:
   void put(const TileKey& tile, std::span<const BlockView> blocks) override {
     TileBlocks copy;
