@@ -73,6 +73,41 @@ TEST_P(MapMemory, AndThreadsDoNotChangeOneByteOfWhatIsPainted) {
 INSTANTIATE_TEST_SUITE_P(Carvings, MapMemory, testing::Values("careful", "octomap", "none"),
                          [](const auto& carving) { return std::string(carving.param); });
 
+TEST(MapMemoryOfClouds, DoesNotChangeOneByteOfWhatIsImported) {
+  const TestFolder folder;
+  fly(folder, "a", 31);
+  ASSERT_EQ(thermovox(folder.path(), "map a --resolution 0.02 --station a.tvx").code, 0);
+  ASSERT_EQ(thermovox(folder.path(), "export a.tvx cloud.ply").code, 0);
+  const auto imported = [&](const std::string& work) {
+    const Outcome outcome = runShell(
+        folder.path(), std::string("rm -f s.tvx; SOURCE_DATE_EPOCH=1700000000 ") + kThermovox +
+                           "map --json --geometry cloud.ply --resolution 0.02 --station s.tvx " + work);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return std::pair(bytesOf(folder / "s.tvx"), outcome.json().at("spilled_tiles").get<int>());
+  };
+  const auto [expected, none] = imported("--threads 1");
+  EXPECT_EQ(none, 0);
+  for (const char* work : {"--threads 8 --memory 1", "--threads 1 --memory 1", "--threads 2"}) {
+    const auto [station, spilled] = imported(work);
+    EXPECT_TRUE(station == expected) << work;
+    EXPECT_EQ(spilled > 10, std::string(work).ends_with("--memory 1")) << spilled;
+  }
+}
+
+TEST(MergeMemory, DoesNotChangeOneByteOfWhatIsMoved) {
+  const TestFolder folder;
+  fly(folder, "a", 31);
+  fly(folder, "b", 32);
+  for (const char* name : {"a", "b"})
+    ASSERT_EQ(thermovox(folder.path(), fmt::format("map {0} --resolution 0.1 --station {0}.tvx", name)).code,
+              0);
+  const std::string merge = "merge a.tvx b.tvx --transform '-3 0.5 0 0 0 0.6 0.8' ";
+  ASSERT_EQ(thermovox(folder.path(), merge + "-o roomy.tvx").code, 0);
+  ASSERT_EQ(thermovox(folder.path(), merge + "--memory 1 --threads 2 -o narrow.tvx").code, 0);
+  EXPECT_TRUE(bytesOf(folder / "narrow.tvx") == bytesOf(folder / "roomy.tvx"));
+  EXPECT_EQ(thermovox(folder.path(), merge + "--memory 0 -o x.tvx").code, 2);
+}
+
 TEST(MapMemoryReport, TilesThatWaitInAFileAreToldOf) {
   const TestFolder folder;
   fly(folder, "a", 31);

@@ -173,6 +173,8 @@ TEST(StationMerge, MovesAStationOnRequest) {
   EXPECT_THAT(station.verify(), IsEmpty());
   EXPECT_FALSE(station.missions().at(0).T_world_mission);
   EXPECT_EQ(station.missions().at(1).T_world_mission, by_blocks);
+  mergeStations(inputs, folder / "narrow.tvx", Existing::refuse, {.threads = 2, .memory_bytes = 50'000});
+  EXPECT_TRUE(bytesOf(folder / "narrow.tvx") == bytesOf(folder / "out.tvx"));
   // Moved once more, the motions of its missions add up.
   mergeStations(std::vector<MergeInput>{{folder / "out.tvx", by_blocks}}, folder / "twice.tvx",
                 Existing::refuse);
