@@ -25,7 +25,7 @@ struct MapJob {
   double max_gap = toSeconds(Trajectory::kDefaultMaxGap);
   MissionMapper::Options mapper;
   int threads = 0;                 ///< 0: one for each processor
-  std::uint64_t memory_bytes = 0;  ///< of the maps, beyond which tiles go to files; 0: half of the machine's
+  std::uint64_t memory_bytes = 0;  ///< of the maps, beyond which tiles go to files
   bool two_pass = false;
   bool paint = false;  ///< implies two passes
   KnownMission known = KnownMission::refuse;
