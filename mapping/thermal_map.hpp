@@ -33,9 +33,9 @@ class ThermalMap {
 
   /// How many threads integrate() may use; 1 at first. The result does not depend on it.
   void setThreads(int threads) { integrator_.setThreads(threads); }
-  /// From now on integrate(), observe(), setBlock() and merge() put tiles into the store when the map takes
-  /// more memory than the limit; all queries bring back what they need. While a reading is integrated, its
-  /// own marks and tiles come on top. The store must outlive the map.
+  /// From now on integrate(), observe(), setBlock(), mergeBlock() and merge() put tiles into the store when
+  /// the map takes more memory than the limit; all queries bring back what they need. While a reading is
+  /// integrated, its own marks and tiles come on top. The store must outlive the map.
   void spillTo(TileStore& store, std::size_t limit_bytes);
 
   /// Throws the DataError that integrate() would.
