@@ -1,11 +1,19 @@
 #include "apps/arguments.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "io/atomic_file.hpp"
 
 namespace thermovox {
+namespace {
+
+constexpr std::uint64_t kMegabyte = 1'000'000;
+constexpr std::uint64_t kMostMegabytes = 1'000'000'000;
+
+}  // namespace
 
 void addPalette(CLI::App& verb, Palette& palette) {
   std::map<std::string, Palette> choices;
@@ -19,6 +27,20 @@ std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span) {
     throw UsageError("--span: expected two temperatures LO < HI, in C");
   }
   return TemperatureSpan{span[0], span[1]};
+}
+
+void addMemoryOption(CLI::App& verb, std::uint64_t& bytes, const std::string& help) {
+  bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+          static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE)) / 2;
+  const auto set = [&bytes](std::uint64_t megabytes) {
+    if (megabytes < 1 || megabytes > kMostMegabytes) {
+      throw UsageError("--memory: found " + std::to_string(megabytes) + " MB, expected 1 to " +
+                       std::to_string(kMostMegabytes) + " MB");
+    }
+    bytes = megabytes * kMegabyte;
+  };
+  verb.add_option_function<std::uint64_t>("--memory", set, help + " (default: half of the machine's)")
+      ->type_name("MB");
 }
 
 void checkEnding(const std::filesystem::path& path, const std::vector<std::string>& endings) {

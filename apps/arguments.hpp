@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -36,6 +37,9 @@ void addPalette(CLI::App& verb, Palette& palette);
 
 /// `--span LO HI`. None where it was not given; throws UsageError unless both are finite and LO < HI.
 [[nodiscard]] std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span);
+
+/// `--memory MB`, kept in bytes; half of the machine's where it is not given.
+void addMemoryOption(CLI::App& verb, std::uint64_t& bytes, const std::string& help);
 
 /// Throws UsageError unless the path's ending, whatever its case, is one of these.
 void checkEnding(const std::filesystem::path& path, const std::vector<std::string>& endings);

@@ -38,8 +38,8 @@ std::chrono::milliseconds milliseconds(double seconds) {
 
 /// Whether one path is the other or lies in it.
 bool isWithin(const fs::path& path, const fs::path& folder) {
-  const fs::path from = fs::weakly_canonical(folder);
-  const fs::path to = fs::weakly_canonical(path).lexically_relative(from);
+  const fs::path from = fs::weakly_canonical(fs::absolute(folder));
+  const fs::path to = fs::weakly_canonical(fs::absolute(path)).lexically_relative(from);
   return !to.empty() && *to.begin() != "..";
 }
 

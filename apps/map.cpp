@@ -21,8 +21,6 @@ const std::map<std::string, Carving> kCarvings{{nameOf(Carving::careful), Carvin
                                                {nameOf(Carving::octomap), Carving::octomap},
                                                {nameOf(Carving::none), Carving::none}};
 
-constexpr std::uint64_t kMegabyte = 1'000'000;
-constexpr std::uint64_t kMostMegabytes = 1'000'000'000;
 constexpr int kMostThreads = 1024;
 
 constexpr double kLongestGap = 1e7;  // seconds
@@ -70,14 +68,6 @@ void checkUsage(const MapJob& job) {
   }
 }
 
-void setMemory(MapJob& job, std::uint64_t megabytes) {
-  if (megabytes < 1 || megabytes > kMostMegabytes) {
-    throw UsageError("--memory: found " + std::to_string(megabytes) + " MB, expected 1 to " +
-                     std::to_string(kMostMegabytes) + " MB");
-  }
-  job.memory_bytes = megabytes * kMegabyte;
-}
-
 void runMap(MapArgs& args) {
   const auto begin = std::chrono::steady_clock::now();
   checkUsage(args.job);
@@ -95,11 +85,9 @@ void runMap(MapArgs& args) {
 void addWorkOptions(CLI::App& verb, const std::shared_ptr<MapArgs>& args) {
   verb.add_option("--threads", args->job.threads,
                   "Threads to work with; the result is the same for any number (default: all processors)");
-  verb.add_option_function<std::uint64_t>(
-          "--memory", [args](std::uint64_t megabytes) { setMemory(args->job, megabytes); },
-          "Memory that the maps may take [MB]; tiles beyond it wait in a file beside the station, which is "
-          "slower (default: half of the machine's)")
-      ->type_name("MB");
+  addMemoryOption(verb, args->job.memory_bytes,
+                  "Memory that the maps may take [MB]; tiles beyond it wait in a file beside the station, "
+                  "which is slower");
   verb.add_flag("--two-pass", args->job.two_pass,
                 "Read each mission twice: geometry first, then colours, tested against all of it");
   verb.add_flag(

@@ -1,7 +1,6 @@
 #include "apps/map_job.hpp"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <deque>
@@ -17,7 +16,7 @@
 #include "io/folders.hpp"
 #include "io/mission_folder.hpp"
 #include "io/rig_file.hpp"
-#include "io/spilled_tiles.hpp"
+#include "io/spilling_map.hpp"
 #include "mapping/parallel.hpp"
 #include "projection/error.hpp"
 
@@ -188,24 +187,6 @@ std::unique_ptr<PointsRecord> openRecord(const MapJob& job) {
   return std::make_unique<PointsRecord>(job.points, job.recorded, job.existing_points);
 }
 
-std::uint64_t memoryOf(const MapJob& job) {
-  if (job.memory_bytes > 0) return job.memory_bytes;
-  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE)) / 2;
-}
-
-/// A map with the file that takes what does not fit memory.
-struct SpillingMap {
-  SpilledTiles store;
-  ThermalMap map;
-
-  SpillingMap(const MapJob& job, const ThermalMap::Options& options)
-      : store(folderOf(job.station)), map(options) {
-    map.setThreads(threadsToUse(job.threads));
-  }
-  void limitTo(std::uint64_t bytes) { map.spillTo(store, static_cast<std::size_t>(bytes)); }
-};
-
 /// The maps of one run, in the order in which they were made, with what the station is to remember of them.
 class Additions {
  public:
@@ -214,9 +195,10 @@ class Additions {
   /// With --paint the station as it was has half of the memory; of the rest the map at work has half, once
   /// there are finished ones.
   ThermalMap& newMap() {
-    const std::uint64_t memory = memoryOf(job_) / (job_.paint ? 2 : 1);
+    const std::uint64_t memory = job_.memory_bytes / (job_.paint ? 2 : 1);
     for (SpillingMap& finished : maps_) finished.limitTo(memory / (2 * maps_.size()));
-    SpillingMap& map = maps_.emplace_back(job_, options_);
+    SpillingMap& map = maps_.emplace_back(folderOf(job_.station), options_);
+    map.map.setThreads(threadsToUse(job_.threads));
     map.limitTo(maps_.size() > 1 ? memory / 2 : memory);
     return map.map;
   }
@@ -229,6 +211,11 @@ class Additions {
     std::vector<const ThermalMap*> maps;
     for (const Station::Addition& addition : additions_) maps.push_back(addition.map);
     return maps;
+  }
+  [[nodiscard]] std::size_t spilledTiles() const {
+    std::size_t count = 0;
+    for (const SpillingMap& spilling : maps_) count += spilling.map.spilledTiles();
+    return count;
   }
   [[nodiscard]] std::span<const Station::Addition> all() const { return additions_; }
 
@@ -279,7 +266,7 @@ MapResult run(MapJob& job) {
   const ThermalMap::Options options = station ? station->options() : newStationOptions(job);
   std::optional<SpillingMap> before;
   if (job.paint && station) {
-    before.emplace(job, options).limitTo(memoryOf(job) / 2);
+    before.emplace(folderOf(job.station), options).limitTo(job.memory_bytes / 2);
     station->loadInto(before->map);
   }
   Additions additions(job, options);
@@ -290,6 +277,7 @@ MapResult run(MapJob& job) {
   station->addMissions(additions.all(), job.known);
   if (points) points->commit();
   result.voxels = static_cast<std::size_t>(station->counts().surfaces);
+  result.spilled_tiles = additions.spilledTiles() + (before ? before->map.spilledTiles() : 0);
   return result;
 }
 

@@ -27,7 +27,7 @@ struct MapJob {
   RadiometricOverrides radiometry;  ///< instead of what radiometric frames and their missions say
   MissionMapper::Options mapper;
   int threads = 0;                 ///< 0: one for each processor
-  std::uint64_t memory_bytes = 0;  ///< of the maps, beyond which tiles go to files; 0: half of the machine's
+  std::uint64_t memory_bytes = 0;  ///< of the maps, beyond which tiles go to files
   bool two_pass = false;
   bool paint = false;  ///< implies two passes
   KnownMission known = KnownMission::refuse;

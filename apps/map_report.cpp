@@ -33,6 +33,7 @@ void printJson(const MapResult& result) {
   for (const MissionReport& report : result.missions) json["missions"].push_back(missionJson(report));
   if (result.missions.size() == 1) json.update(missionJson(result.missions.front()));
   json["voxels"] = result.voxels;
+  json["spilled_tiles"] = result.spilled_tiles;
   json["seconds"] = result.seconds;
   json["points_per_second"] = result.pointsPerSecond();
   std::cout << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
@@ -48,6 +49,10 @@ void printText(const MapResult& result, const std::filesystem::path& station) {
   }
   std::cout << station.string() << ": " << result.voxels << " cells hold a surface, mapped in "
             << result.seconds << " s\n";
+  if (result.spilled_tiles > 0) {
+    std::cout << "  tiles went to a file " << result.spilled_tiles
+              << " times for want of memory: more --memory makes it faster\n";
+  }
 }
 
 }  // namespace thermovox

@@ -12,6 +12,7 @@ namespace thermovox {
 struct MapResult {
   std::vector<MissionReport> missions;
   std::size_t voxels = 0;
+  std::size_t spilled_tiles = 0;  ///< how often a tile did not fit into memory
   double seconds = 0.0;
 
   [[nodiscard]] double pointsPerSecond() const {

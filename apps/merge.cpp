@@ -23,7 +23,7 @@ struct MergeArgs {
   std::vector<fs::path> stations;
   std::vector<std::string> transforms;
   fs::path out;
-  int threads = 0;
+  MergeWork work;
   bool force = false;
   bool json = false;
 };
@@ -62,7 +62,7 @@ void runMerge(const MergeArgs& args) {
   if (args.stations.size() < 2) throw UsageError("merge: found one station, expected two or more");
   const std::vector<MergeInput> inputs = inputsFrom(args);
   const Existing existing = args.force ? Existing::replace : Existing::refuse;
-  const Station::Counts counts = mergeStations(inputs, args.out, existing, args.threads);
+  const Station::Counts counts = mergeStations(inputs, args.out, existing, args.work);
   if (args.json) {
     const nlohmann::ordered_json json{{"station", args.out.string()},
                                       {"stations", args.stations.size()},
@@ -99,8 +99,12 @@ void addMerge(CLI::App& app) {
           "diagonal, and bytes depend on which station was moved. Recorded with the missions")
       ->type_name("[STATION=]POSE")
       ->allow_extra_args(false);
-  verb->add_option("--threads", args->threads, "Threads (default: one for each processor)")
+  verb->add_option("--threads", args->work.threads, "Threads (default: one for each processor)")
       ->check(CLI::Range(1, 1024));
+  addMemoryOption(
+      *verb, args->work.memory_bytes,
+      "Memory that stations which --transform moves may take [MB]; tiles beyond it wait in a file "
+      "beside the output, which is slower. Others are read tile by tile");
   verb->add_flag("--force", args->force, "Replace the output when it is there");
   verb->add_flag("--json", args->json, "Print the account as JSON");
   verb->callback([args] { runMerge(*args); });

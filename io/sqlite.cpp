@@ -155,7 +155,8 @@ void SqlDatabase::Closer::operator()(sqlite3* database) const {
 
 SqlDatabase::SqlDatabase(const std::filesystem::path& path, Mode mode, std::string shown_name)
     : file_name_(std::move(shown_name)) {
-  open(uriOf(path), openFlags(path, mode));
+  // A file that nobody else sees needs no locks, and over NFS they would meet those of UnfinishedFile.
+  open(uriOf(path) + (mode == Mode::build ? "?nolock=1" : ""), openFlags(path, mode));
   // A file that another program left in write-ahead mode, with nothing beside it, can only be read without
   // leaving something there when it is taken for immutable.
   if (mode == Mode::read && !isBeside(path, "-wal") && isInWalMode(database_.get()))

@@ -1,12 +1,15 @@
 #include "io/station_merge.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "io/folders.hpp"
 #include "io/number_text.hpp"
+#include "io/spilling_map.hpp"
 #include "io/sqlite.hpp"
 #include "io/station_schema.hpp"
 #include "io/station_tiles.hpp"
@@ -21,10 +24,13 @@ namespace {
 /// What the stations become, while it is put together; the databases and maps are what its sources read.
 struct Merge {
   std::deque<SqlDatabase> databases;
-  std::deque<ThermalMap> moved;
+  std::deque<SpillingMap> moved;
   StationContent content;
   std::string frame;
   std::map<std::string, fs::path> station_of;  ///< by the mission's name
+  fs::path folder;                             ///< of the output
+  int threads = 0;
+  std::uint64_t map_bytes = 0;  ///< that each map may take
 };
 
 void checkSameCells(const Merge& merge, const MergeInput& input, const MergeInput& first,
@@ -58,17 +64,21 @@ void addMissions(Merge& merge, const MergeInput& input, std::vector<MissionRecor
   }
 }
 
-ThermalMap movedStation(const MergeInput& input, int threads) {
+const ThermalMap& movedStation(Merge& merge, const MergeInput& input) {
+  SpillingMap before(merge.folder, merge.content.options);
+  before.limitTo(merge.map_bytes);
+  Station::open(input.station, {.threads = merge.threads}).loadInto(before.map);
+  SpillingMap& moved = merge.moved.emplace_back(merge.folder, merge.content.options);
+  moved.limitTo(merge.map_bytes);
   try {
-    return movedMap(Station::open(input.station, {.threads = threads}).loadMap(), *input.T_world_station);
+    addMoved(before.map, *input.T_world_station, moved.map);
   } catch (const DataError& error) {
-    const std::string name = input.station.string();
-    const std::string what = error.what();
-    throw DataError(what.starts_with(name) ? what : name + ": " + what);
+    throw DataError(input.station.string() + ": " + error.what());
   }
+  return moved.map;
 }
 
-void addStation(Merge& merge, const MergeInput& input, const MergeInput& first, int threads) {
+void addStation(Merge& merge, const MergeInput& input, const MergeInput& first) {
   const ThermalMap::Options options = Station::open(input.station).options();  // and checks what it is
   const SqlDatabase& database =
       merge.databases.emplace_back(input.station, SqlDatabase::Mode::read, input.station.string());
@@ -81,8 +91,7 @@ void addStation(Merge& merge, const MergeInput& input, const MergeInput& first, 
   checkSameCells(merge, input, first, options, frame);
   addMissions(merge, input, readMissions(database, input.station));
   if (input.T_world_station) {
-    const ThermalMap& map = merge.moved.emplace_back(movedStation(input, threads));
-    merge.content.sources.push_back(std::make_unique<MapTiles>(map));
+    merge.content.sources.push_back(std::make_unique<MapTiles>(movedStation(merge, input)));
   } else {
     merge.content.sources.push_back(std::make_unique<StationTiles>(database, input.station));
   }
@@ -103,14 +112,21 @@ void checkIsNoInput(const fs::path& output, std::span<const MergeInput> inputs) 
 }  // namespace
 
 Station::Counts mergeStations(std::span<const MergeInput> inputs, const fs::path& output, Existing existing,
-                              int threads) {
+                              const MergeWork& work) {
   if (inputs.empty()) throw ConfigError("no station is given to merge, expected one or more");
   checkIsNoInput(output, inputs);
   checkOutput(output, existing);
   StationWriter writer(output);
+  const auto moved =
+      static_cast<std::uint64_t>(std::count_if(inputs.begin(), inputs.end(), [](const MergeInput& input) {
+        return input.T_world_station.has_value();
+      }));
   Merge merge;
-  for (const MergeInput& input : inputs) addStation(merge, input, inputs.front(), threads);
-  writer.write(std::move(merge.content), threads);
+  merge.folder = folderOf(output);
+  merge.threads = work.threads;
+  merge.map_bytes = work.memory_bytes / (moved + 1);  // one is moved at a time, and all that were stay
+  for (const MergeInput& input : inputs) addStation(merge, input, inputs.front());
+  writer.write(std::move(merge.content), work.threads);
   if (existing == Existing::replace) {
     writer.publishOver();
   } else if (!writer.publishNew()) {

@@ -46,6 +46,7 @@ std::optional<TileKey> StationTiles::key() const {
 TileSource::Part StationTiles::next() {
   Part part;
   part.stored = std::move(tile_);
+  part.station = path_;
   part.current = current_;
   read();
   return part;

@@ -35,7 +35,8 @@ class TileSource {
   /// What the source has of the tile at hand: a tile of a station, or of a map that lives on.
   struct Part {
     std::optional<StoredTile> stored;
-    bool current = false;  ///< `stored` is as this program would write it
+    std::filesystem::path station;  ///< in which it is stored
+    bool current = false;           ///< `stored` is as this program would write it
     std::shared_ptr<const MapTile> tile;
   };
   /// Gives the tile at hand and goes to the next.

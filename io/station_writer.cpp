@@ -5,16 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <tuple>
 #include <utility>
 
 #include "io/atomic_file.hpp"
 #include "io/folders.hpp"
-#include "io/number_text.hpp"
 #include "io/parallel_for.hpp"
 #include "io/pose_text.hpp"
 #include "io/station_schema.hpp"
@@ -25,36 +22,11 @@ namespace thermovox {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kUnfinished = ".unfinished";
 /// Tiles that are encoded at a time.
 constexpr std::size_t kBatch = 64;
 
 [[noreturn]] void fail(const fs::path& path, const char* action, int error) {
   throw DataError(path.string() + ": " + action + " (" + std::strerror(error) + ")");
-}
-
-/// Whether the name is NAME.tvx.<process>-<number>.unfinished of a process that lives no more.
-bool isLeftover(std::string_view name, const std::string& station) {
-  if (!name.starts_with(station + ".") || !name.ends_with(kUnfinished)) return false;
-  name.remove_prefix(station.size() + 1);
-  name.remove_suffix(kUnfinished.size());
-  const std::optional<int> process = parseInteger(name.substr(0, name.find('-')));
-  return process && *process > 0 && ::kill(*process, 0) != 0 && errno == ESRCH;
-}
-
-void removeLeftovers(const fs::path& station) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folderOf(station), ignored)) {
-    if (isLeftover(entry.path().filename().string(), station.filename().string()))
-      fs::remove(entry.path(), ignored);
-  }
-}
-
-/// A name beside the station's that no other writer of this or another process has.
-fs::path unfinishedName(const fs::path& path) {
-  static std::atomic<unsigned> count = 0;
-  return path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(count++) +
-         kUnfinished.data();
 }
 
 /// Brings a file or folder to the disk.
@@ -88,10 +60,14 @@ std::vector<TileJob> nextJobs(std::vector<std::unique_ptr<TileSource>>& sources)
   return jobs;
 }
 
-/// The sum of what the sources have. A tile that one station alone has goes on as it is.
-StoredTile stored(TileJob& job, const fs::path& path) {
+/// The sum of what the sources have. A tile that one station alone has goes on as it is, once it is found
+/// sound: a station that is damaged must not become one that looks whole.
+StoredTile stored(TileJob& job) {
   TileSource::Part& only = job.parts.front();
-  if (job.parts.size() == 1 && only.stored && only.current) return std::move(*only.stored);
+  if (job.parts.size() == 1 && only.stored && only.current) {
+    (void)decodeStoredTile(*only.stored, only.station);
+    return std::move(*only.stored);
+  }
   if (job.parts.size() == 1 && only.tile) {
     const std::vector<BlockView> blocks = viewsOf(job.key, *only.tile);
     std::size_t surfaces = 0;
@@ -102,7 +78,7 @@ StoredTile stored(TileJob& job, const fs::path& path) {
   TileBlocks sum;
   for (TileSource::Part& part : job.parts) {
     if (part.stored) {
-      for (const auto& [key, block] : decodeStoredTile(*part.stored, path)) sum[key].merge(block);
+      for (const auto& [key, block] : decodeStoredTile(*part.stored, part.station)) sum[key].merge(block);
     } else {
       for (const BlockView& view : viewsOf(job.key, *part.tile)) sum[view.key].merge(*view.block);
     }
@@ -110,12 +86,11 @@ StoredTile stored(TileJob& job, const fs::path& path) {
   return {job.key, static_cast<std::int64_t>(sum.size()), surfacesIn(sum), encodeTile(sum)};
 }
 
-void writeTiles(SqlDatabase& database, std::vector<std::unique_ptr<TileSource>>& sources, int threads,
-                const fs::path& path) {
+void writeTiles(SqlDatabase& database, std::vector<std::unique_ptr<TileSource>>& sources, int threads) {
   SqlStatement insert = database.prepare("INSERT INTO tiles VALUES (?, ?, ?, ?, ?, ?)");
   for (std::vector<TileJob> jobs = nextJobs(sources); !jobs.empty(); jobs = nextJobs(sources)) {
     std::vector<StoredTile> tiles(jobs.size());
-    parallelFor(jobs.size(), threads, [&](std::size_t i) { tiles[i] = stored(jobs[i], path); });
+    parallelFor(jobs.size(), threads, [&](std::size_t i) { tiles[i] = stored(jobs[i]); });
     for (const StoredTile& tile : tiles) {
       insert.bind(1, tile.key.x).bind(2, tile.key.y).bind(3, tile.key.z);
       insert.bind(4, tile.blocks).bind(5, tile.surfaces).bindBlob(6, tile.data).run();
@@ -142,37 +117,31 @@ StationWriter::StationWriter(fs::path path) : path_(std::move(path)), file_(path
       throw DataError(path_.string() + ": is a link to nothing, expected a station or a free name");
     file_ = fs::canonical(path_);
   }
-  removeLeftovers(file_);
-  unfinished_ = unfinishedName(file_);
-  const int descriptor = ::open(unfinished_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(path_, "cannot be written, nothing can be created in its folder", errno);
-  ::close(descriptor);
+  unfinished_.emplace(file_, path_);
 }
 
-StationWriter::~StationWriter() {
-  std::error_code ignored;
-  if (!unfinished_.empty()) fs::remove(unfinished_, ignored);
-}
+StationWriter::~StationWriter() = default;
 
 void StationWriter::write(StationContent content, int threads) {
   sortMissions(content.missions);
   {
-    SqlDatabase database(unfinished_, SqlDatabase::Mode::build, path_.string());
+    SqlDatabase database(unfinished_->path(), SqlDatabase::Mode::build, path_.string());
     database.execute("BEGIN");
     createStationTables(database);
     for (const MissionRecord& mission : content.missions) insertMission(database, mission);
-    writeTiles(database, content.sources, threads, path_);
+    writeTiles(database, content.sources, threads);
     writeStationMeta(database, content.options);
     database.execute("COMMIT");
   }
-  syncToDisk(unfinished_, path_);
+  syncToDisk(unfinished_->path(), path_);
 }
 
 bool StationWriter::publishNew() {
-  const int renamed = ::renameat2(AT_FDCWD, unfinished_.c_str(), AT_FDCWD, file_.c_str(), RENAME_NOREPLACE);
+  const int renamed =
+      ::renameat2(AT_FDCWD, unfinished_->path().c_str(), AT_FDCWD, file_.c_str(), RENAME_NOREPLACE);
   if (renamed != 0 && errno == EINVAL) {  // a file system that cannot (NFS)
-    if (::link(unfinished_.c_str(), file_.c_str()) == 0) {
-      ::unlink(unfinished_.c_str());
+    if (::link(unfinished_->path().c_str(), file_.c_str()) == 0) {
+      ::unlink(unfinished_->path().c_str());
     } else if (errno == EEXIST) {
       return false;
     } else {
@@ -182,16 +151,17 @@ bool StationWriter::publishNew() {
     if (errno == EEXIST) return false;
     fail(path_, "cannot be put into place", errno);
   }
-  unfinished_.clear();
+  unfinished_->keep();
   syncFolderOf(file_);
   return true;
 }
 
 void StationWriter::publishOver() {
   struct stat old {};
-  if (::stat(file_.c_str(), &old) == 0) ::chmod(unfinished_.c_str(), old.st_mode & 07777);
-  if (::rename(unfinished_.c_str(), file_.c_str()) != 0) fail(path_, "cannot be put into place", errno);
-  unfinished_.clear();
+  if (::stat(file_.c_str(), &old) == 0) ::chmod(unfinished_->path().c_str(), old.st_mode & 07777);
+  if (::rename(unfinished_->path().c_str(), file_.c_str()) != 0)
+    fail(path_, "cannot be put into place", errno);
+  unfinished_->keep();
   syncFolderOf(file_);
 }
 

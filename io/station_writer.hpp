@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "io/station.hpp"
 #include "io/station_tiles.hpp"
+#include "io/unfinished_file.hpp"
 
 namespace thermovox {
 
@@ -39,7 +41,7 @@ class StationWriter {
  private:
   std::filesystem::path path_;
   std::filesystem::path file_;  ///< the path, links followed
-  std::filesystem::path unfinished_;
+  std::optional<UnfinishedFile> unfinished_;
 };
 
 /// The missions in the order of their flights: by first stamp, then name; those without stamps last.

@@ -93,6 +93,16 @@ void ReadingIntegrator::integrateMarked(std::span<const MappedReturn> reading, C
   tiles.recount(keys);
 }
 
+std::size_t ReadingIntegrator::memoryBytes() const {
+  std::size_t bytes = 0;
+  for (const ReadingMarks& marks : marks_) bytes += marks.memoryBytes();
+  return bytes;
+}
+
+void ReadingIntegrator::keepAtMost(std::size_t bytes) {
+  for (ReadingMarks& marks : marks_) marks.keepAtMost(bytes / marks_.size());
+}
+
 void ReadingIntegrator::mark(std::span<const MappedReturn> reading, Carving carving, int worker,
                              int workers) {
   ReadingMarks& marks = marks_[static_cast<std::size_t>(worker)];

@@ -24,6 +24,11 @@ class ReadingIntegrator {
   /// missions, and what a store throws; the tiles may then hold a part of the reading.
   void integrate(std::span<const MappedReturn> reading, Carving carving, TileTable& tiles);
 
+  /// Memory that is kept for the marks of the next reading.
+  [[nodiscard]] std::size_t memoryBytes() const;
+  /// Gives what is beyond so many bytes back.
+  void keepAtMost(std::size_t bytes);
+
  private:
   struct SweptTile {
     TileKey key;

@@ -1,5 +1,6 @@
 #include "mapping/reading_marks.hpp"
 
+#include <algorithm>
 #include <new>
 
 namespace thermovox {
@@ -92,6 +93,11 @@ void ReadingMarks::clear() {
   used_.clear();
   table_.clear();
   if (pool_.size() > kKeptTiles) pool_.resize(kKeptTiles);
+}
+
+void ReadingMarks::keepAtMost(std::size_t bytes) {
+  const std::size_t kept = std::max(bytes / kTileBytes, used_.size());
+  if (pool_.size() > kept) pool_.resize(kept);
 }
 
 }  // namespace thermovox

@@ -32,6 +32,8 @@ class ReadingMarks {
     SparseTileBits hit;
     SparseTileBits beside;  ///< next to a hit; only where asked for
   };
+  /// Memory of a tile with each bit in use.
+  static constexpr std::size_t kTileBytes = sizeof(Tile) + 3 * sizeof(Bits);
 
   void markHit(const CellPlace& place);
   /// The six cells that share a face with this one.
@@ -46,6 +48,10 @@ class ReadingMarks {
   /// Forgets the tiles, of which nothing is marked as passed any more, and keeps the memory of some, at most
   /// 10 MB, for the next reading.
   void clear();
+  /// Gives the memory of forgotten tiles beyond so many bytes back.
+  void keepAtMost(std::size_t bytes);
+  /// Memory of the tiles, marked or forgotten, as if each bit were in use.
+  [[nodiscard]] std::size_t memoryBytes() const { return pool_.size() * kTileBytes; }
 
  private:
   struct Slot {

@@ -40,12 +40,18 @@ ThermalMap::ThermalMap(const Options& options)
 void ThermalMap::integrate(std::span<const MappedReturn> reading, Carving carving) {
   check(reading);
   if (!reading.empty()) integrator_.integrate(reading, carving, tiles_);
-  tiles_.trim();
+  keepFewMarks();
+  trim();
 }
 
 void ThermalMap::spillTo(TileStore& store, std::size_t limit_bytes) {
   tiles_.spillTo(store, limit_bytes);
-  tiles_.trim();
+  keepFewMarks();
+  trim();
+}
+
+void ThermalMap::keepFewMarks() {
+  if (const std::optional<std::size_t> limit = tiles_.limitBytes()) integrator_.keepAtMost(*limit / 4);
 }
 
 void ThermalMap::check(std::span<const MappedReturn> reading) const {
@@ -65,7 +71,13 @@ void ThermalMap::observe(const CellKey& key, const TemperatureObservation& obser
   Block& block = tile.blockOrNew(indexInTile(block_key));
   block.surfaceOrNew(indexInBlock(key)).addTemperature(observation, stamp);
   tiles_.grew(tileOf(block_key), block.memoryBytes() - before);
-  tiles_.trim();
+  trim();
+}
+
+void ThermalMap::mergeBlock(const BlockKey& key, const Block& block) {
+  tiles_.findOrNew(tileOf(key)).blockOrNew(indexInTile(key)).merge(block);
+  tiles_.recount({{tileOf(key)}});
+  trim();
 }
 
 void ThermalMap::merge(const ThermalMap& other) {
@@ -79,7 +91,7 @@ void ThermalMap::merge(const ThermalMap& other) {
     MapTile& tile = tiles_.findOrNew(key);
     from.forEachBlock([&](int index, const Block& block) { tile.blockOrNew(index).merge(block); });
     tiles_.recount({{key}});
-    tiles_.trim();
+    trim();
   });
 }
 
@@ -122,7 +134,7 @@ std::size_t ThermalMap::surfaceCount() const {
 }
 
 std::size_t ThermalMap::memoryBytes() const {
-  return tiles_.memoryBytes();
+  return tiles_.memoryBytes() + integrator_.memoryBytes();
 }
 
 const Block* ThermalMap::block(const BlockKey& key) const {
@@ -133,7 +145,7 @@ const Block* ThermalMap::block(const BlockKey& key) const {
 void ThermalMap::setBlock(const BlockKey& key, Block block) {
   tiles_.findOrNew(tileOf(key)).blockOrNew(indexInTile(key)) = std::move(block);
   tiles_.recount({{tileOf(key)}});
-  tiles_.trim();
+  trim();
 }
 
 std::vector<BlockKey> ThermalMap::sortedBlockKeys() const {

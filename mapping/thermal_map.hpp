@@ -33,10 +33,13 @@ class ThermalMap {
 
   /// How many threads integrate() may use; 1 at first. The result does not depend on it.
   void setThreads(int threads) { integrator_.setThreads(threads); }
-  /// From now on integrate(), observe(), setBlock() and merge() put tiles into the store when the map takes
-  /// more memory than the limit; all queries bring back what they need. The store must outlive the map.
+  /// From now on integrate(), observe(), setBlock(), mergeBlock() and merge() put tiles into the store when
+  /// the map takes more memory than the limit; all queries bring back what they need. While a reading is
+  /// integrated, its own marks and tiles come on top. The store must outlive the map.
   void spillTo(TileStore& store, std::size_t limit_bytes);
 
+  /// Throws the DataError that integrate() would.
+  void check(std::span<const MappedReturn> reading) const;
   /// Integrates one reading: within it a cell is updated once, hit before free (OctoMap's rule); a return
   /// without temperature still is geometry. For the map of ONE mission: what merge() added up over missions
   /// would be clamped again and guarded against the wrong statistics. Throws DataError, leaving the map as it
@@ -68,7 +71,7 @@ class ThermalMap {
 
   [[nodiscard]] std::size_t blockCount() const;
   [[nodiscard]] std::size_t surfaceCount() const;
-  /// Memory of what is not in the store.
+  /// Memory of what is not in the store, and of what is kept for the next reading.
   [[nodiscard]] std::size_t memoryBytes() const;
   /// Tiles that have gone to the store so far.
   [[nodiscard]] std::size_t spilledTiles() const { return tiles_.spills(); }
@@ -76,6 +79,8 @@ class ThermalMap {
   [[nodiscard]] const Block* block(const BlockKey& key) const;
   /// Puts a block as it was read from a station or an OctoMap; replaces one that is there.
   void setBlock(const BlockKey& key, Block block);
+  /// Adds a block as merge() does.
+  void mergeBlock(const BlockKey& key, const Block& block);
   /// All blocks in ascending order of their keys (x first), so that two runs write identical files.
   [[nodiscard]] std::vector<BlockKey> sortedBlockKeys() const;
 
@@ -102,7 +107,9 @@ class ThermalMap {
   }
 
  private:
-  void check(std::span<const MappedReturn> reading) const;
+  /// What is kept for the marks of the next reading: a quarter of the memory at most, where that has a limit.
+  void keepFewMarks();
+  void trim() { tiles_.trim(integrator_.memoryBytes()); }
   [[nodiscard]] LogOdds logOddsOf(const CellKey& key) const;
 
   Options options_;

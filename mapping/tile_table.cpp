@@ -77,12 +77,14 @@ void TileTable::grew(const TileKey& key, std::size_t bytes) {
   bytes_ += bytes;
 }
 
-void TileTable::trim() {
-  if (store_ == nullptr || bytes_ <= limit_bytes_) return;
+void TileTable::trim(std::size_t reserved) {
+  const std::size_t limit = limit_bytes_ - std::min(reserved, limit_bytes_);
+  if (store_ == nullptr || bytes_ <= limit) return;
   std::vector<std::pair<std::uint64_t, TileKey>> by_use;
   for (const auto& [key, entry] : tiles_) by_use.emplace_back(entry.used, key);
   std::sort(by_use.begin(), by_use.end());
-  const auto most = static_cast<std::size_t>(kTrimmed * static_cast<double>(limit_bytes_));
+  by_use.pop_back();  // the tile in use stays even where it exceeds the limit, or it would come back at once
+  const auto most = static_cast<std::size_t>(kTrimmed * static_cast<double>(limit));
   for (const auto& [used, key] : by_use) {
     if (bytes_ <= most) break;
     spill(key);

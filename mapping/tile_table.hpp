@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -32,8 +33,13 @@ class TileTable {
   void recount(std::span<const TileKey> grown);
   /// The same for a tile that has grown by so many bytes.
   void grew(const TileKey& key, std::size_t bytes);
-  /// Puts tiles into the store until the rest fits the limit; those used last stay.
-  void trim();
+  /// Puts tiles into the store until the rest fits the limit less `reserved` bytes; those used last stay, and
+  /// always the very last.
+  void trim(std::size_t reserved = 0);
+  /// As given to spillTo(); none before.
+  [[nodiscard]] std::optional<std::size_t> limitBytes() const {
+    return store_ != nullptr ? std::optional(limit_bytes_) : std::nullopt;
+  }
   /// Memory of the tiles that are not in the store.
   [[nodiscard]] std::size_t memoryBytes() const;
   /// Tiles that were put into the store so far.

@@ -61,21 +61,26 @@ void expectSound(const fs::path& station) {
   EXPECT_THAT(Station::open(station).verify(), testing::IsEmpty());
 }
 
-TEST(CliKill, AStationHasTheMissionWhollyOrNotAtAll) {
-  const TestFolder folder;
-  const std::string monday = flyMission(folder, "monday", LaserKind::scan).string();
-  const std::string tuesday = flyMission(folder, "tuesday", LaserKind::scan, 12).string();
+/// Kills runs that add a mission to a station, with these options, at any moment: the mission is in it wholly
+/// or not at all, and what lies beside it the next run removes.
+void expectWhollyOrNotAtAll(const TestFolder& folder, LaserKind laser,
+                            const std::vector<std::string>& options) {
+  const std::string monday = flyMission(folder, "monday", laser).string();
+  const std::string tuesday = flyMission(folder, "tuesday", laser, 12).string();
   const std::string station = folder / "plant.tvx";
-  run({"map", monday, "--station", station});
+  std::vector<std::string> add{"map", tuesday, "--station", station};
+  run({"map", monday, "--station", station, "--resolution", "0.08"});
+  add.insert(add.end(), options.begin(), options.end());
   const std::string before = bytesOf(station);
-  const double whole = run({"map", tuesday, "--station", station});
+  const double whole = run(add);
   const std::string after = bytesOf(station);
+  const std::set<std::string> names = namesUnder(folder.path());
   std::mt19937_64 rng(23);
   int killed = 0, with_mission = 0;
   for (int i = 0; i < kills(); ++i) {
     std::ofstream(station, std::ios::binary) << before;
     const double moment = whole * 1.1 * static_cast<double>(rng() >> 11) * 0x1p-53;
-    killed += killAfter(moment, {"map", tuesday, "--station", station});
+    killed += killAfter(moment, add);
     expectSound(station);
     const std::string now = bytesOf(station);
     EXPECT_TRUE(now == before || now == after) << "killed after " << moment << " s";
@@ -83,11 +88,29 @@ TEST(CliKill, AStationHasTheMissionWhollyOrNotAtAll) {
   }
   std::cout << killed << " runs killed on the way, " << with_mission << " with the mission in the station\n";
   std::ofstream(station, std::ios::binary) << before;
-  run({"map", tuesday, "--station", station});
+  run(add);
   EXPECT_EQ(bytesOf(station), after);
-  for (const std::string& name : namesUnder(folder.path())) {
-    EXPECT_FALSE(name.starts_with("plant.tvx.")) << name << " was left behind";
-  }
+  EXPECT_EQ(namesUnder(folder.path()), names);
+}
+
+TEST(CliKill, AStationHasTheMissionWhollyOrNotAtAll) {
+  expectWhollyOrNotAtAll(TestFolder(), LaserKind::scan, {});
+}
+
+TEST(CliKill, SoItIsWhileTilesWaitInAFile) {
+  const TestFolder folder;
+  expectWhollyOrNotAtAll(folder, LaserKind::cloud, {"--memory", "1"});
+  const test::Outcome narrow =
+      test::thermovox(folder.path(), "map tuesday --memory 1 --json --station n.tvx");
+  EXPECT_GT(narrow.json().at("spilled_tiles"), 10);
+}
+
+TEST(CliKill, SoItIsOfASecondLook) {
+  expectWhollyOrNotAtAll(TestFolder(), LaserKind::scan, {"--two-pass"});
+}
+
+TEST(CliKill, SoItIsOfPaintingWhileTilesWaitInAFile) {
+  expectWhollyOrNotAtAll(TestFolder(), LaserKind::cloud, {"--paint", "--memory", "2"});
 }
 
 TEST(CliKill, AMergeIsThereWhollyOrNotAtAll) {

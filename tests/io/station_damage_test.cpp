@@ -56,6 +56,23 @@ TEST(Station, SaysWhichTileIsDamaged) {
   EXPECT_THAT(Station::open(path).verify(), ElementsAre(HasSubstr("tile (-1, -1, -1) is damaged")));
 }
 
+TEST(Station, IsNotContinuedWhereATileIsDamaged) {
+  const TestFolder folder;
+  const fs::path path = stationOf(folder, {1});
+  executeSql(path,
+             "UPDATE tiles SET data = CAST(substr(data, 1, 100) || x'00' || substr(data, 102) AS BLOB)"
+             " WHERE x = -1 AND y = -1 AND z = -1");
+  const std::string before = test::bytesOf(path);
+  ThermalMap far(randomMission(0).options());  // which does not touch the tile
+  const Eigen::Vector3d p_world(100.05, 100.05, 0.05);
+  far.integrate({{{p_world, p_world, Time{}, std::nullopt}}}, Carving::none);
+  EXPECT_THAT(test::messageOf<DataError>(
+                  [&] { Station::open(path).addMission(record("far"), far, KnownMission::refuse); }),
+              HasSubstr("plant.tvx: tile (-1, -1, -1) is damaged"));
+  EXPECT_TRUE(test::bytesOf(path) == before);
+  EXPECT_THAT(namesIn(folder.path()), ElementsAre("plant.tvx"));
+}
+
 TEST(Station, RefusesTilesOutsideTheWorld) {
   const TestFolder folder;
   const fs::path path = stationOf(folder, {1});

@@ -126,6 +126,43 @@ TEST(StationMerge, RefusesADamagedStation) {
   EXPECT_FALSE(fs::exists(folder / "out.tvx"));
 }
 
+/// Changes one byte of a tile and leaves its row in place.
+void damageTile(const fs::path& station, const char* where) {
+  const std::string sql =
+      "UPDATE tiles SET data = CAST(substr(data, 1, 100) || x'00' || substr(data, 102) AS BLOB) WHERE ";
+  executeSql(station, (sql + where).c_str());
+}
+
+TEST(StationMerge, RefusesADamagedTileThatOneStationAloneHas) {
+  const TestFolder folder;
+  const fs::path a = stationOf(folder, {1}, "a.tvx");
+  ThermalMap far(randomMission(0).options());
+  const Eigen::Vector3d p_world(100.05, 100.05, 0.05);
+  far.integrate({{{p_world, p_world, Time{}, std::nullopt}}}, Carving::none);
+  Station::create(folder / "b.tvx", far.options()).addMission(record("far"), far, KnownMission::refuse);
+  const std::string expected = bytesOf(folder / "b.tvx");
+  damageTile(a, "x = -1 AND y = -1 AND z = -1");
+  for (const fs::path& first : {a, fs::path(folder / "b.tvx")}) {
+    const fs::path& second = first == a ? fs::path(folder / "b.tvx") : a;
+    EXPECT_THAT(messageOf<DataError>([&] {
+                  merge({first, second}, folder / "out.tvx");
+                }),
+                HasSubstr("a.tvx: tile (-1, -1, -1) is damaged"));
+  }
+  EXPECT_THAT(namesIn(folder.path()), testing::UnorderedElementsAre("a.tvx", "b.tvx"));
+  EXPECT_EQ(bytesOf(folder / "b.tvx"), expected);
+}
+
+TEST(StationMerge, RefusesATileThatHoldsOtherThanItSays) {
+  const TestFolder folder;
+  const fs::path a = stationOf(folder, {1}, "a.tvx");
+  executeSql(a,
+             "UPDATE tiles SET surfaces = surfaces - 1 WHERE x = -1 AND y = -1 AND z = -1;"
+             "UPDATE meta SET value = value - 1 WHERE key = 'surfaces'");
+  EXPECT_THAT(messageOf<DataError>([&] { merge({a}, folder / "out.tvx"); }),
+              HasSubstr("a.tvx: is damaged, a tile holds another number of blocks or surfaces than it says"));
+}
+
 TEST(StationMerge, MovesAStationOnRequest) {
   const TestFolder folder;
   const fs::path a = stationOf(folder, {1}, "a.tvx"), b = stationOf(folder, {2}, "b.tvx");
@@ -136,6 +173,8 @@ TEST(StationMerge, MovesAStationOnRequest) {
   EXPECT_THAT(station.verify(), IsEmpty());
   EXPECT_FALSE(station.missions().at(0).T_world_mission);
   EXPECT_EQ(station.missions().at(1).T_world_mission, by_blocks);
+  mergeStations(inputs, folder / "narrow.tvx", Existing::refuse, {.threads = 2, .memory_bytes = 50'000});
+  EXPECT_TRUE(bytesOf(folder / "narrow.tvx") == bytesOf(folder / "out.tvx"));
   // Moved once more, the motions of its missions add up.
   mergeStations(std::vector<MergeInput>{{folder / "out.tvx", by_blocks}}, folder / "twice.tvx",
                 Existing::refuse);

@@ -5,12 +5,19 @@
 #include <cmath>
 
 #include "projection/error.hpp"
+#include "tests/support/memory_store.hpp"
 #include "tests/support/same_map.hpp"
 
 namespace thermovox {
 namespace {
 
 using test::randomMission;
+
+ThermalMap movedMap(const ThermalMap& map, const Pose& T_world_map) {
+  ThermalMap result(map.options());
+  addMoved(map, T_world_map, result);
+  return result;
+}
 
 TEST(MovedMap, WithoutAMotionHasTheSameCells) {
   const ThermalMap map = randomMission(1);
@@ -70,6 +77,35 @@ TEST(MovedMap, TakesLogOddsFromWhereTheCellsCentreWas) {
     }
   });
   EXPECT_GT(known, 1000);
+}
+
+TEST(MovedMap, IsTheSameWhereTilesWaitInAStore) {
+  const Pose T{Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized())), {4, 5, 6}};
+  const ThermalMap map = randomMission(2, 0.03);
+  const ThermalMap expected = movedMap(map, T);
+  constexpr std::size_t limit = 300'000;
+  test::MemoryStore from_store, to_store;
+  ThermalMap from = randomMission(2, 0.03), to(map.options());
+  from.spillTo(from_store, limit);
+  to.spillTo(to_store, limit);
+  addMoved(from, T, to);
+  EXPECT_GT(expected.memoryBytes(), 5 * limit);
+  EXPECT_GT(from.spilledTiles(), 5U);
+  EXPECT_GT(to.spilledTiles(), 5U);
+  EXPECT_LE(from.memoryBytes(), 2 * limit);
+  EXPECT_LE(to.memoryBytes(), 2 * limit);
+  EXPECT_TRUE(test::sameMap(to, expected));
+}
+
+TEST(MovedMap, AddsToWhatIsThere) {
+  const Pose by_cells{Eigen::Quaterniond::Identity(), {1.3, -0.7, 2.0}};
+  ThermalMap expected = movedMap(randomMission(1), by_cells);
+  expected.merge(randomMission(2));
+  ThermalMap together = randomMission(2);
+  addMoved(randomMission(1), by_cells, together);
+  EXPECT_TRUE(test::sameMap(together, expected));
+  ThermalMap coarse({.resolution = 0.2});
+  EXPECT_THROW(addMoved(randomMission(1), by_cells, coarse), ConfigError);
 }
 
 TEST(MovedMap, RefusesToLeaveTheWorld) {

@@ -63,6 +63,19 @@ TEST(ReadingMarks, AreThoseOfAPlainSetReadingAfterReading) {
   }
 }
 
+TEST(ReadingMarks, KeepAsMuchMemoryAsTheyMay) {
+  ReadingMarks marks;
+  for (int i = 0; i < 10; ++i) marks.markHit(placeOf({100 * i, 0, 0}));
+  EXPECT_EQ(marks.memoryBytes(), 10 * ReadingMarks::kTileBytes);
+  marks.keepAtMost(0);  // nothing that is marked goes
+  EXPECT_EQ(takeMarks(marks).size(), 10U);
+  EXPECT_EQ(marks.memoryBytes(), 10 * ReadingMarks::kTileBytes);
+  marks.keepAtMost(3 * ReadingMarks::kTileBytes + 1);
+  EXPECT_EQ(marks.memoryBytes(), 3 * ReadingMarks::kTileBytes);
+  for (int i = 0; i < 5; ++i) marks.markHit(placeOf({0, 100 * i, 0}));
+  EXPECT_EQ(takeMarks(marks).size(), 5U);
+}
+
 TEST(ReadingMarks, LieBesideAHitAcrossTheBordersOfTiles) {
   ReadingMarks marks;
   marks.markBeside({0, 63, -64});

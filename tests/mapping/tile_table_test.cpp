@@ -2,44 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <random>
 #include <utility>
 
 #include "mapping/thermal_map.hpp"
 #include "projection/error.hpp"
+#include "tests/support/memory_store.hpp"
 #include "tests/support/same_map.hpp"
 
 namespace thermovox {
 namespace {
 
-/// A store in memory.
-class MemoryStore final : public TileStore {
- public:
-  void put(const TileKey& tile, std::span<const BlockView> blocks) override {
-    TileBlocks copy;
-    for (const BlockView& view : blocks) copy.emplace(view.key, *view.block);
-    tiles_[tile] = std::move(copy);
-  }
-  std::optional<TileBlocks> take(const TileKey& tile) override {
-    auto node = tiles_.extract(tile);
-    if (node.empty()) return std::nullopt;
-    return std::move(node.mapped());
-  }
-  std::optional<TileBlocks> get(const TileKey& tile) const override {
-    const auto found = tiles_.find(tile);
-    return found == tiles_.end() ? std::nullopt : std::optional(found->second);
-  }
-  bool holds(const TileKey& tile) const override { return tiles_.contains(tile); }
-  std::vector<TileKey> sortedTiles() const override {
-    std::vector<TileKey> keys;
-    for (const auto& [key, blocks] : tiles_) keys.push_back(key);
-    return keys;
-  }
-
- private:
-  std::map<TileKey, TileBlocks> tiles_;
-};
+using test::MemoryStore;
 
 /// Readings all over a place of many tiles.
 std::vector<std::vector<MappedReturn>> scatteredReadings() {
@@ -76,6 +50,20 @@ TEST(SpilledMap, IsTheSameAsOneInMemory) {
   forEachSurface(spilled, [&](const CellKey& key, const SurfaceCell&) { order[1].push_back(key); });
   EXPECT_EQ(order[0], order[1]);
   EXPECT_TRUE(test::sameMap(in_memory, spilled));
+}
+
+TEST(SpilledMap, CountsWhatItKeepsForTheNextReading) {
+  ThermalMap map({.resolution = 0.1});
+  MemoryStore store;
+  for (const auto& reading : scatteredReadings()) map.integrate(reading, Carving::octomap);
+  const std::size_t whole = map.memoryBytes();
+  map.spillTo(store, 2 * whole);
+  EXPECT_EQ(map.memoryBytes(), whole);
+  const std::size_t spilled = map.spilledTiles();
+  map.spillTo(store, whole - 1);  // the tiles alone would fit
+  EXPECT_GT(map.spilledTiles(), spilled);
+  map.spillTo(store, 0);
+  EXPECT_LE(map.memoryBytes(), whole / 10);
 }
 
 /// Refuses to give back its first tile once it is told to.
