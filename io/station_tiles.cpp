@@ -104,4 +104,11 @@ void forEachDecodedTile(StationTiles& tiles, const std::filesystem::path& path, 
   }
 }
 
+void loadTiles(StationTiles& tiles, const std::filesystem::path& path, int threads, ThermalMap& map) {
+  forEachDecodedTile(tiles, path, threads, [&](TileBlocks& blocks, const std::string& fault) {
+    if (!fault.empty()) throw DataError(fault);
+    for (auto& [key, block] : blocks) map.setBlock(key, std::move(block));
+  });
+}
+
 }  // namespace thermovox
