@@ -62,12 +62,6 @@ TileSource::Part MapTiles::next() {
   return {.tile = map_.tile(keys_[place_++])};
 }
 
-std::vector<BlockView> viewsOf(const TileKey& key, const MapTile& tile) {
-  std::vector<BlockView> views;
-  tile.forEachBlock([&](int index, const Block& block) { views.push_back({blockAt(key, index), &block}); });
-  return views;
-}
-
 std::int64_t surfacesIn(const TileBlocks& blocks) {
   std::int64_t count = 0;
   for (const auto& [key, block] : blocks) count += static_cast<std::int64_t>(block.surfaceCount());

@@ -88,7 +88,5 @@ void forEachDecodedTile(StationTiles& tiles, const std::filesystem::path& path, 
 void loadTiles(StationTiles& tiles, const std::filesystem::path& path, int threads, ThermalMap& map);
 
 [[nodiscard]] std::int64_t surfacesIn(const TileBlocks& blocks);
-/// The blocks of a tile where they are.
-[[nodiscard]] std::vector<BlockView> viewsOf(const TileKey& key, const MapTile& tile);
 
 }  // namespace thermovox
