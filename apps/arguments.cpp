@@ -1,10 +1,9 @@
 #include "apps/arguments.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "apps/usable_memory.hpp"
 #include "io/atomic_file.hpp"
 
 namespace thermovox {
@@ -12,6 +11,7 @@ namespace {
 
 constexpr std::uint64_t kMegabyte = 1'000'000;
 constexpr std::uint64_t kMostMegabytes = 1'000'000'000;
+constexpr int kMostThreads = 1024;
 
 }  // namespace
 
@@ -29,9 +29,22 @@ std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span) {
   return TemperatureSpan{span[0], span[1]};
 }
 
+void addThreadsOption(CLI::App& verb, int& threads) {
+  const auto set = [&threads](int asked) {
+    if (asked < 0 || asked > kMostThreads) {
+      throw UsageError("--threads: found " + std::to_string(asked) + ", expected 1 to " +
+                       std::to_string(kMostThreads) + " (or 0 for all processors)");
+    }
+    threads = asked;
+  };
+  verb.add_option_function<int>("--threads", set,
+                                "Threads to work with; the result is the same for any number (default 0: one "
+                                "for each processor)")
+      ->type_name("N");
+}
+
 void addMemoryOption(CLI::App& verb, std::uint64_t& bytes, const std::string& help) {
-  bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-          static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE)) / 2;
+  bytes = usableMemory() / 2;
   const auto set = [&bytes](std::uint64_t megabytes) {
     if (megabytes < 1 || megabytes > kMostMegabytes) {
       throw UsageError("--memory: found " + std::to_string(megabytes) + " MB, expected 1 to " +
@@ -39,7 +52,8 @@ void addMemoryOption(CLI::App& verb, std::uint64_t& bytes, const std::string& he
     }
     bytes = megabytes * kMegabyte;
   };
-  verb.add_option_function<std::uint64_t>("--memory", set, help + " (default: half of the machine's)")
+  verb.add_option_function<std::uint64_t>("--memory", set,
+                                          help + " (default: half of the machine's or container's)")
       ->type_name("MB");
 }
 

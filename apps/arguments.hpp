@@ -38,7 +38,10 @@ void addPalette(CLI::App& verb, Palette& palette);
 /// `--span LO HI`. None where it was not given; throws UsageError unless both are finite and LO < HI.
 [[nodiscard]] std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span);
 
-/// `--memory MB`, kept in bytes; half of the machine's where it is not given.
+/// `--threads N`: 0, as where it is not given, for one for each processor; the help says so.
+void addThreadsOption(CLI::App& verb, int& threads);
+
+/// `--memory MB`, kept in bytes; half of what this process may use where it is not given.
 void addMemoryOption(CLI::App& verb, std::uint64_t& bytes, const std::string& help);
 
 /// Throws UsageError unless the path's ending, whatever its case, is one of these.

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,8 +11,10 @@
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
 #include "io/cloud_writer.hpp"
+#include "io/folders.hpp"
 #include "io/map_picture.hpp"
 #include "io/octomap_file.hpp"
+#include "io/spilling_map.hpp"
 #include "io/station.hpp"
 #include "mapping/surface_cloud.hpp"
 
@@ -25,6 +28,8 @@ struct ExportArgs {
   fs::path out;
   ColourScale scale;
   std::vector<double> span;
+  int threads = 0;
+  std::uint64_t memory_bytes = 0;
   bool force = false;
 };
 
@@ -45,8 +50,11 @@ void runExport(ExportArgs& args) {
   args.scale.span = spanFrom(args.span);
   const Existing existing = args.force ? Existing::replace : Existing::refuse;
   checkOutput(args.out, existing);
-  const Station station = Station::open(args.station);
-  const ThermalMap map = station.loadMap();
+  const Station station = Station::open(args.station, {.threads = args.threads});
+  SpillingMap spilling(folderOf(args.out), station.options());
+  spilling.limitTo(args.memory_bytes);
+  station.loadInto(spilling.map);
+  const ThermalMap& map = spilling.map;
   const std::string ending = endingOf(args.out);
   if (ending == ".bt") {
     writeBt(args.out, map, existing);
@@ -75,6 +83,10 @@ void addExport(CLI::App& app) {
                    "Temperatures at the two ends of the palette, LO HI [C] (default: 2nd to 98th percentile)")
       ->expected(2);
   addPalette(*verb, args->scale.palette);
+  addThreadsOption(*verb, args->threads);
+  addMemoryOption(*verb, args->memory_bytes,
+                  "Memory that the map may take [MB]; tiles beyond it wait in a file beside OUT, which is "
+                  "slower. What is written comes on top: some 50 bytes a point, or OctoMap's tree");
   verb->add_flag("--force", args->force, "Replace OUT when it is there");
   verb->callback([args] { runExport(*args); });
 }

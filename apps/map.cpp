@@ -21,8 +21,6 @@ const std::map<std::string, Carving> kCarvings{{nameOf(Carving::careful), Carvin
                                                {nameOf(Carving::octomap), Carving::octomap},
                                                {nameOf(Carving::none), Carving::none}};
 
-constexpr int kMostThreads = 1024;
-
 constexpr double kLongestGap = 1e7;  // seconds
 
 struct MapArgs {
@@ -54,10 +52,6 @@ void checkUsage(const MapJob& job) {
     throw UsageError("--max-gap: found " + std::to_string(job.max_gap) +
                      " s, expected more than 0 and at most " + std::to_string(kLongestGap) + " s");
   }
-  if (job.threads < 0 || job.threads > kMostThreads) {
-    throw UsageError("--threads: found " + std::to_string(job.threads) + ", expected 1 to " +
-                     std::to_string(kMostThreads) + " (or 0 for all processors)");
-  }
   checkRadiometry(job.radiometry);
   if (!job.points.empty()) checkEnding(job.points, {".csv", ".ply"});
   for (const std::filesystem::path& file : job.geometry) checkEnding(file, {".pcd", ".ply"});
@@ -83,8 +77,7 @@ void runMap(MapArgs& args) {
 
 /// How the work is done, and in how many looks.
 void addWorkOptions(CLI::App& verb, const std::shared_ptr<MapArgs>& args) {
-  verb.add_option("--threads", args->job.threads,
-                  "Threads to work with; the result is the same for any number (default: all processors)");
+  addThreadsOption(verb, args->job.threads);
   addMemoryOption(verb, args->job.memory_bytes,
                   "Memory that the maps may take [MB]; tiles beyond it wait in a file beside the station, "
                   "which is slower");

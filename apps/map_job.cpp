@@ -11,13 +11,12 @@
 #include <utility>
 
 #include "apps/imported_cloud.hpp"
-#include "apps/progress.hpp"
+#include "apps/mission_run.hpp"
 #include "apps/radiometry_options.hpp"
 #include "io/folders.hpp"
 #include "io/mission_folder.hpp"
 #include "io/rig_file.hpp"
 #include "io/spilling_map.hpp"
-#include "mapping/parallel.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -35,10 +34,6 @@ void warnOfHalfACamera(const OpenedMission& opened) {
     spdlog::warn("{} lists thermal images, but {} has no thermal_camera: the map gets no temperatures",
                  opened.file.string(), opened.rig_file.string());
   }
-}
-
-MissionOptions missionOptions(const MapJob& job) {
-  return {.max_gap = durationFromSeconds(job.max_gap), .radiometry = job.radiometry};
 }
 
 /// All missions, in the order of their names on the command line.
@@ -62,69 +57,14 @@ std::vector<std::size_t> flightOrder(const std::vector<OpenedMission>& missions)
   return order;
 }
 
-/// Colours were to be expected, and there is not one: most likely the rig or a clock is wrong.
-void checkColours(const MissionReport& report, bool frames_expected) {
-  if (!frames_expected || report.coloured > 0 || report.painted > 0) return;
-  const auto most = std::max_element(report.uncoloured.begin(), report.uncoloured.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
-  const std::string reason = most == report.uncoloured.end() ? "no_frame" : most->first;
-  const std::string likely = reason == "no_frame" || reason == "no_pose_for_frame"
-                                 ? "check the clocks of camera and laser, and camera_time_offset"
-                                 : "check T_body_camera and T_body_laser of the rig";
-  throw DataError("mission " + report.mission + ": none of its " + std::to_string(report.points) +
-                  " points got a temperature (most: " + reason + "); " + likely);
-}
-
-/// One way through a mission's recordings.
-MissionReport mapOnce(OpenedMission& opened, ThermalMap& map, const MissionMapper::Options& options,
-                      const std::string& pass, const MissionMapper::Sink& points) {
-  const Trajectory& trajectory = opened.mission.trajectory;
-  Progress progress("mapping " + opened.mission.name + pass, trajectory.poses().front().stamp,
-                    trajectory.poses().back().stamp);
-  const MissionListeners listeners{.points = points,
-                                   .progress = [&progress](Time stamp) { progress.at(stamp); }};
-  return mapMission({opened.mission, *opened.readings, opened.frames.get()}, map, options, listeners);
-}
-
-/// Geometry first, then the colours, tested against `known` and the mission's own geometry together. Both
-/// read the mission from its start.
-MissionReport mapTwice(OpenedMission& opened, const MapJob& job, std::vector<const ThermalMap*> known,
-                       ThermalMap& map, const MissionMapper::Sink& points) {
-  OpenedMission again = openMission(opened.folder, missionOptions(job));
-  again.frames.reset();
-  (void)mapOnce(again, map, job.mapper, ", pass 1 of 2", {});
-  known.push_back(&map);
-  SceneSurfaces scene(std::move(known));
-  MissionMapper::Options options = job.mapper;
-  options.pass = job.paint ? MissionMapper::Pass::paint : MissionMapper::Pass::colours;
-  options.scene = &scene;
-  return mapOnce(opened, map, options, ", pass 2 of 2", points);
-}
-
-/// `known` is the geometry besides the mission's own.
-MissionReport mapOne(OpenedMission& opened, const MapJob& job, std::vector<const ThermalMap*> known,
-                     ThermalMap& map, PointsRecord* record) {
-  MissionMapper::Sink points;
-  if (record != nullptr) points = [record](std::span<const ColouredReturn> reading) { record->add(reading); };
-  MissionReport report;
-  if ((job.two_pass || job.paint) && opened.frames) {
-    report = mapTwice(opened, job, std::move(known), map, points);
-  } else {
-    std::optional<SceneSurfaces> scene;
-    MissionMapper::Options options = job.mapper;
-    if (!known.empty()) options.scene = &scene.emplace(std::move(known));
-    report = mapOnce(opened, map, options, "", points);
-  }
-  checkColours(report, opened.frames != nullptr);
-  return report;
-}
-
-/// How to wait for another process that writes the station.
+/// How to wait for another process that writes the station: without end, for the mapping is done by then.
 StationAccess accessOf(const MapJob& job) {
-  return {.threads = job.threads, .patience = {.begins = [station = job.station] {
-                                    spdlog::info("{}: waits for another process that is writing it",
-                                                 station.string());
-                                  }}};
+  const auto begins = [station = job.station.string()] {
+    spdlog::info(
+        "{}: waits for another process that is writing it, however long; to stop gives up the mapping",
+        station);
+  };
+  return {.threads = job.threads, .patience = {.most = std::nullopt, .begins = begins}};
 }
 
 /// The station to continue; none when it is to be made. One that could not be written is refused before hours
@@ -145,14 +85,16 @@ std::optional<Station> existingStation(const MapJob& job) {
   return station;
 }
 
-/// What the map needs to be made again from its missions.
-std::string parametersOf(const MapJob& job) {
+/// What the map needs to be made again from its missions; `scene` names those whose geometry the mission's
+/// frames painted besides its own.
+std::string parametersOf(const MapJob& job, const std::vector<std::string>& scene) {
   nlohmann::ordered_json json{{"carve", nameOf(job.mapper.carving)},
                               {"max_gap", job.max_gap},
                               {"two_pass", job.two_pass || job.paint},
                               {"paint", job.paint}};
   for (const fs::path& file : job.geometry) json["geometry"].push_back(cloudName(file));
   if (job.radiometry.any()) json["radiometry"] = jsonOf(job.radiometry);
+  if (job.paint) json["scene"] = scene;
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -171,10 +113,11 @@ void checkNew(const std::vector<OpenedMission>& missions, const std::optional<St
   for (const OpenedMission& opened : missions) check(opened.mission.name, opened.folder);
 }
 
-MissionRecord recordOf(const OpenedMission& opened, const MissionReport& report, const MapJob& job) {
+MissionRecord recordOf(const OpenedMission& opened, const MissionReport& report, const MapJob& job,
+                       const std::vector<std::string>& scene) {
   return {.name = report.mission,
           .rig = rigText(opened.mission.rig),
-          .parameters = parametersOf(job),
+          .parameters = parametersOf(job, scene),
           .readings = static_cast<std::int64_t>(report.readings),
           .points = static_cast<std::int64_t>(report.points),
           .coloured = static_cast<std::int64_t>(report.coloured),
@@ -190,16 +133,16 @@ std::unique_ptr<PointsRecord> openRecord(const MapJob& job) {
 /// The maps of one run, in the order in which they were made, with what the station is to remember of them.
 class Additions {
  public:
-  Additions(const MapJob& job, const ThermalMap::Options& options) : job_(job), options_(options) {}
+  /// The maps may take so many bytes together.
+  Additions(const MapJob& job, const ThermalMap::Options& options, std::uint64_t memory_bytes)
+      : job_(job), options_(options), memory_bytes_(memory_bytes) {}
 
-  /// With --paint the station as it was has half of the memory; of the rest the map at work has half, once
-  /// there are finished ones.
+  /// The map at work has half of the memory, once there are finished ones.
   ThermalMap& newMap() {
-    const std::uint64_t memory = job_.memory_bytes / (job_.paint ? 2 : 1);
-    for (SpillingMap& finished : maps_) finished.limitTo(memory / (2 * maps_.size()));
+    for (SpillingMap& finished : maps_) finished.limitTo(memory_bytes_ / (2 * maps_.size()));
     SpillingMap& map = maps_.emplace_back(folderOf(job_.station), options_);
-    map.map.setThreads(threadsToUse(job_.threads));
-    map.limitTo(maps_.size() > 1 ? memory / 2 : memory);
+    map.map.setThreads(job_.threads);
+    map.limitTo(maps_.size() > 1 ? memory_bytes_ / 2 : memory_bytes_);
     return map.map;
   }
   void add(MissionRecord record, const ThermalMap& map) {
@@ -212,6 +155,11 @@ class Additions {
     for (const Station::Addition& addition : additions_) maps.push_back(addition.map);
     return maps;
   }
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const Station::Addition& addition : additions_) names.push_back(addition.record.name);
+    return names;
+  }
   [[nodiscard]] std::size_t spilledTiles() const {
     std::size_t count = 0;
     for (const SpillingMap& spilling : maps_) count += spilling.map.spilledTiles();
@@ -222,14 +170,27 @@ class Additions {
  private:
   const MapJob& job_;
   ThermalMap::Options options_;
+  std::uint64_t memory_bytes_;
   std::deque<SpillingMap> maps_;  // whose places stay where they are
   std::vector<Station::Addition> additions_;
+};
+
+/// The station as it was, for frames to paint.
+struct Before {
+  SpillingMap map;
+  std::vector<std::string> names;  ///< of its missions
+
+  Before(const MapJob& job, const Station& station) : map(folderOf(job.station), station.options()) {
+    map.limitTo(job.memory_bytes / 2);
+    station.loadInto(map.map);
+    for (const MissionRecord& mission : station.missions()) names.push_back(mission.name);
+  }
 };
 
 /// Maps the missions in the order of their flights. What hides things from a mission besides its own geometry
 /// are the imported clouds; with --paint also the station as it was and the missions before it.
 std::vector<MissionReport> mapMissions(std::vector<OpenedMission>& missions, const MapJob& job,
-                                       const ThermalMap* before, Additions& additions, PointsRecord* record) {
+                                       const Before* before, Additions& additions, PointsRecord* record) {
   for (const fs::path& file : job.geometry) {
     ThermalMap& map = additions.newMap();
     additions.add(importCloud(file, map), map);
@@ -238,10 +199,12 @@ std::vector<MissionReport> mapMissions(std::vector<OpenedMission>& missions, con
   std::vector<MissionReport> reports(missions.size());
   for (const std::size_t place : flightOrder(missions)) {
     std::vector<const ThermalMap*> known = job.paint ? additions.maps() : clouds;
-    if (before != nullptr) known.push_back(before);
+    std::vector<std::string> names = before != nullptr ? before->names : std::vector<std::string>();
+    for (std::string& name : additions.names()) names.push_back(std::move(name));
+    if (before != nullptr) known.push_back(&before->map.map);
     ThermalMap& map = additions.newMap();
     reports[place] = mapOne(missions[place], job, std::move(known), map, record);
-    additions.add(recordOf(missions[place], reports[place], job), map);
+    additions.add(recordOf(missions[place], reports[place], job, names), map);
   }
   return reports;
 }
@@ -264,20 +227,17 @@ MapResult run(MapJob& job) {
   checkNew(missions, station, job);
   const std::unique_ptr<PointsRecord> points = openRecord(job);
   const ThermalMap::Options options = station ? station->options() : newStationOptions(job);
-  std::optional<SpillingMap> before;
-  if (job.paint && station) {
-    before.emplace(folderOf(job.station), options).limitTo(job.memory_bytes / 2);
-    station->loadInto(before->map);
-  }
-  Additions additions(job, options);
+  std::optional<Before> before;
+  if (job.paint && station) before.emplace(job, *station);
+  Additions additions(job, options, job.memory_bytes / (before ? 2 : 1));
   MapResult result;
-  result.missions = mapMissions(missions, job, before ? &before->map : nullptr, additions, points.get());
+  result.missions = mapMissions(missions, job, before ? &*before : nullptr, additions, points.get());
   if (points) points->finish();
   if (!station) station.emplace(Station::create(job.station, options, accessOf(job)));
   station->addMissions(additions.all(), job.known);
   if (points) points->commit();
   result.voxels = static_cast<std::size_t>(station->counts().surfaces);
-  result.spilled_tiles = additions.spilledTiles() + (before ? before->map.spilledTiles() : 0);
+  result.spilled_tiles = additions.spilledTiles() + (before ? before->map.map.spilledTiles() : 0);
   return result;
 }
 

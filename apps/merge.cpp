@@ -1,4 +1,6 @@
+#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -62,7 +64,11 @@ void runMerge(const MergeArgs& args) {
   if (args.stations.size() < 2) throw UsageError("merge: found one station, expected two or more");
   const std::vector<MergeInput> inputs = inputsFrom(args);
   const Existing existing = args.force ? Existing::replace : Existing::refuse;
-  const Station::Counts counts = mergeStations(inputs, args.out, existing, args.work);
+  MergeWork work = args.work;
+  work.patience.begins = [&args] {
+    spdlog::info("{}: waits for another process that is writing it", args.out.string());
+  };
+  const Station::Counts counts = mergeStations(inputs, args.out, existing, work);
   if (args.json) {
     const nlohmann::ordered_json json{{"station", args.out.string()},
                                       {"stations", args.stations.size()},
@@ -83,9 +89,8 @@ void addMerge(CLI::App& app) {
   CLI::App* verb = app.add_subcommand(
       "merge",
       "Write one station of several, which stay as they are. The order makes no difference: the result is, "
-      "to "
-      "the byte, that of mapping all their missions into one station. Refused: a mission that is in two of "
-      "them, other cells, another occupancy model.");
+      "to the byte, that of mapping all their missions into one station. Refused: a mission that is in two "
+      "of them, other cells, another occupancy model.");
   verb->add_option("STATION", args->stations, "Stations (.tvx), two or more")->required();
   verb->add_option("-o,--output", args->out, "Station to write, none of those")->required();
   verb->add_option(
@@ -93,19 +98,17 @@ void addMerge(CLI::App& app) {
           "Moves a station into the frame of the result: [STATION=]POSE, where POSE is "
           "\"tx ty tz qx qy qz qw\" [m, unit quaternion] or a file that holds it; without STATION= every "
           "station but the first. That resamples: surfaces go with their statistics to the cell of their "
-          "mean "
-          "place, log-odds to the cell in which their centre falls, so that shapes shift by up to half a "
-          "cell's "
-          "diagonal, and bytes depend on which station was moved. Recorded with the missions")
+          "mean place, log-odds to the cell in which their centre falls, so that shapes shift by up to half "
+          "a cell's diagonal, and bytes depend on which station was moved. Recorded with the missions")
       ->type_name("[STATION=]POSE")
       ->allow_extra_args(false);
-  verb->add_option("--threads", args->work.threads, "Threads (default: one for each processor)")
-      ->check(CLI::Range(1, 1024));
+  addThreadsOption(*verb, args->work.threads);
   addMemoryOption(
       *verb, args->work.memory_bytes,
       "Memory that stations which --transform moves may take [MB]; tiles beyond it wait in a file "
       "beside the output, which is slower. Others are read tile by tile");
-  verb->add_flag("--force", args->force, "Replace the output when it is there");
+  verb->add_flag("--force", args->force,
+                 "Replace the output when it is there; who writes it is waited for, up to 30 s");
   verb->add_flag("--json", args->json, "Print the account as JSON");
   verb->callback([args] { runMerge(*args); });
 }

@@ -3,7 +3,6 @@
 #include <sqlite3.h>
 
 #include <array>
-#include <thread>
 #include <utility>
 
 #include "projection/error.hpp"
@@ -13,7 +12,6 @@ namespace {
 
 /// Readers wait for programs other than this one, which write in place.
 constexpr int kBusyMilliseconds = 2000;
-constexpr std::chrono::milliseconds kPause{20};
 
 /// The sentence for what SQLite found.
 [[noreturn]] void fail(const std::string& file_name, sqlite3* database, int code) {
@@ -179,26 +177,15 @@ void SqlDatabase::open(const std::string& uri, int flags) {
   sqlite3_extended_result_codes(database, 0);
 }
 
-int SqlDatabase::tryLock() {
-  // What another program writes with a log beside the file cannot be replaced while it has that open.
-  const int code = sqlite3_exec(database_.get(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
-  if (code != SQLITE_OK) return code;
-  if (isInWalMode(database_.get())) return SQLITE_BUSY;
-  return sqlite3_exec(database_.get(), "BEGIN IMMEDIATE", nullptr, nullptr, nullptr);
-}
-
-void SqlDatabase::lock(const Patience& patience) {
+bool SqlDatabase::tryLock() {
   sqlite3_busy_timeout(database_.get(), 0);
-  const auto begin = std::chrono::steady_clock::now();
-  for (bool waits = false;; waits = true) {
-    const int code = tryLock();
-    if (code == SQLITE_OK) break;
-    if (code != SQLITE_BUSY || std::chrono::steady_clock::now() - begin >= patience.most)
-      fail(file_name_, database_.get(), code);
-    if (!waits && patience.begins) patience.begins();
-    std::this_thread::sleep_for(kPause);
-  }
+  // What another program writes with a log beside the file cannot be replaced while it has that open.
+  int code = sqlite3_exec(database_.get(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+  if (code == SQLITE_OK && isInWalMode(database_.get())) code = SQLITE_BUSY;
+  if (code == SQLITE_OK) code = sqlite3_exec(database_.get(), "BEGIN IMMEDIATE", nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK && code != SQLITE_BUSY) fail(file_name_, database_.get(), code);
   sqlite3_busy_timeout(database_.get(), kBusyMilliseconds);
+  return code == SQLITE_OK;
 }
 
 void SqlDatabase::execute(const std::string& sql) {

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -54,19 +52,14 @@ class SqlDatabase {
   enum class Mode {
     build,  ///< an empty file that nobody else sees and that is thrown away when it does not get finished
     read,   ///< an existing file; needs no right to write, and leaves nothing behind
-    lock,   ///< an existing file, to keep others from writing it with lock()
+    lock,   ///< an existing file, to keep others from writing it with tryLock()
   };
   /// `shown_name` stands for the file in messages.
   SqlDatabase(const std::filesystem::path& path, Mode mode, std::string shown_name);
 
-  /// How long to wait for others, and what to call once when that begins.
-  struct Patience {
-    std::chrono::milliseconds most = std::chrono::seconds(30);
-    std::function<void()> begins;
-  };
-  /// Keeps every other process from writing the file until this object goes. Throws DataError when another
-  /// has not finished after that time.
-  void lock(const Patience& patience);
+  /// Keeps every other process from writing the file until this object goes; false, at once, while another
+  /// one does so.
+  [[nodiscard]] bool tryLock();
 
   void execute(const std::string& sql);
   [[nodiscard]] SqlStatement prepare(std::string_view sql) const;
@@ -75,7 +68,6 @@ class SqlDatabase {
 
  private:
   void open(const std::string& uri, int flags);
-  [[nodiscard]] int tryLock();
 
   struct Closer {
     void operator()(sqlite3* database) const;

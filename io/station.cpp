@@ -1,13 +1,13 @@
 #include "io/station.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <utility>
 
 #include "io/atomic_file.hpp"
+#include "io/station_file.hpp"
 #include "io/station_schema.hpp"
 #include "io/station_tiles.hpp"
 #include "io/station_writer.hpp"
@@ -16,42 +16,6 @@
 namespace thermovox {
 namespace fs = std::filesystem;
 namespace {
-
-/// Refuses what SQLite would take for an empty database or not name well.
-void checkIsFile(const fs::path& path) {
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored))
-    throw DataError(path.string() + ": is a folder, expected a station file");
-  if (!fs::exists(path, ignored))
-    throw DataError(path.string() + ": does not exist, expected a station file");
-  if (!fs::is_regular_file(path, ignored))
-    throw DataError(path.string() + ": is no regular file, expected a station file");
-  if (fs::file_size(path, ignored) == 0)
-    throw DataError(path.string() + ": is empty, expected a station file");
-}
-
-/// Which file lies under a name just now.
-struct FileId {
-  dev_t device = 0;
-  ino_t inode = 0;
-  static FileId of(const fs::path& path) {
-    struct stat found {};
-    return ::stat(path.c_str(), &found) == 0 ? FileId{found.st_dev, found.st_ino} : FileId{};
-  }
-  friend bool operator==(const FileId&, const FileId&) = default;
-};
-
-/// Keeps other processes from writing the station. Whoever waited may find that the file it waited for has
-/// been replaced, and waits for the new one.
-std::unique_ptr<SqlDatabase> lockStation(const fs::path& path, const SqlDatabase::Patience& patience) {
-  for (;;) {
-    checkIsFile(path);
-    const FileId file = FileId::of(path);
-    auto lock = std::make_unique<SqlDatabase>(path, SqlDatabase::Mode::lock, path.string());
-    lock->lock(patience);
-    if (FileId::of(path) == file) return lock;
-  }
-}
 
 void checkNewAmong(const std::vector<MissionRecord>& missions, const std::string& name,
                    const fs::path& path) {
@@ -92,9 +56,7 @@ Station Station::open(const fs::path& path, StationAccess access) {
 }
 
 void Station::read() {
-  checkIsFile(path_);
-  database_ = std::make_unique<SqlDatabase>(path_, SqlDatabase::Mode::read, path_.string());
-  checkStationTables(*database_, path_);
+  database_ = std::make_unique<SqlDatabase>(openStation(path_));
   options_ = readStationOptions(*database_, path_);
 }
 
@@ -130,10 +92,7 @@ void Station::loadInto(ThermalMap& map) const {
   checkOptions(map.options(), options_, path_);
   if (!database_) return;
   StationTiles tiles(*database_, path_);
-  forEachDecodedTile(tiles, path_, access_.threads, [&](TileBlocks& blocks, const std::string& fault) {
-    if (!fault.empty()) throw DataError(fault);
-    for (auto& [key, block] : blocks) map.setBlock(key, std::move(block));
-  });
+  loadTiles(tiles, path_, access_.threads, map);
 }
 
 void Station::checkNew(const std::string& mission) const {

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "io/sqlite.hpp"
+#include "io/station_file.hpp"
 #include "mapping/thermal_map.hpp"
 #include "projection/pose.hpp"
 
@@ -39,7 +38,7 @@ struct StationAccess {
   int threads = 0;  ///< that pack and unpack tiles; 0: one for each processor
   /// How long addMissions waits for another process that writes the station, and what it calls when it begins
   /// to.
-  SqlDatabase::Patience patience{};
+  StationPatience patience{};
 };
 
 /// The persistent thermal map of a place: one SQLite file with the map in compressed, checksummed tiles and

@@ -11,6 +11,7 @@
 #include "io/number_text.hpp"
 #include "io/spilling_map.hpp"
 #include "io/sqlite.hpp"
+#include "io/station_file.hpp"
 #include "io/station_schema.hpp"
 #include "io/station_tiles.hpp"
 #include "io/station_writer.hpp"
@@ -64,10 +65,11 @@ void addMissions(Merge& merge, const MergeInput& input, std::vector<MissionRecor
   }
 }
 
-const ThermalMap& movedStation(Merge& merge, const MergeInput& input) {
+const ThermalMap& movedStation(Merge& merge, const SqlDatabase& database, const MergeInput& input) {
   SpillingMap before(merge.folder, merge.content.options);
   before.limitTo(merge.map_bytes);
-  Station::open(input.station, {.threads = merge.threads}).loadInto(before.map);
+  StationTiles tiles(database, input.station);
+  loadTiles(tiles, input.station, merge.threads, before.map);
   SpillingMap& moved = merge.moved.emplace_back(merge.folder, merge.content.options);
   moved.limitTo(merge.map_bytes);
   try {
@@ -79,10 +81,10 @@ const ThermalMap& movedStation(Merge& merge, const MergeInput& input) {
 }
 
 void addStation(Merge& merge, const MergeInput& input, const MergeInput& first) {
-  const ThermalMap::Options options = Station::open(input.station).options();  // and checks what it is
-  const SqlDatabase& database =
-      merge.databases.emplace_back(input.station, SqlDatabase::Mode::read, input.station.string());
+  // Opened once: another process may replace it meanwhile.
+  const SqlDatabase& database = merge.databases.emplace_back(openStation(input.station));
   checkCounts(database, input.station);
+  const ThermalMap::Options options = readStationOptions(database, input.station);
   const std::string frame = readStationFrame(database, input.station);
   if (&input == &first) {
     merge.content.options = options;
@@ -91,7 +93,7 @@ void addStation(Merge& merge, const MergeInput& input, const MergeInput& first) 
   checkSameCells(merge, input, first, options, frame);
   addMissions(merge, input, readMissions(database, input.station));
   if (input.T_world_station) {
-    merge.content.sources.push_back(std::make_unique<MapTiles>(movedStation(merge, input)));
+    merge.content.sources.push_back(std::make_unique<MapTiles>(movedStation(merge, database, input)));
   } else {
     merge.content.sources.push_back(std::make_unique<StationTiles>(database, input.station));
   }
@@ -109,14 +111,8 @@ void checkIsNoInput(const fs::path& output, std::span<const MergeInput> inputs) 
   }
 }
 
-}  // namespace
-
-Station::Counts mergeStations(std::span<const MergeInput> inputs, const fs::path& output, Existing existing,
-                              const MergeWork& work) {
-  if (inputs.empty()) throw ConfigError("no station is given to merge, expected one or more");
-  checkIsNoInput(output, inputs);
-  checkOutput(output, existing);
-  StationWriter writer(output);
+/// What the output is to hold. The databases that it is read from come with it.
+Merge mergeOf(std::span<const MergeInput> inputs, const fs::path& output, const MergeWork& work) {
   const auto moved =
       static_cast<std::uint64_t>(std::count_if(inputs.begin(), inputs.end(), [](const MergeInput& input) {
         return input.T_world_station.has_value();
@@ -126,11 +122,37 @@ Station::Counts mergeStations(std::span<const MergeInput> inputs, const fs::path
   merge.threads = work.threads;
   merge.map_bytes = work.memory_bytes / (moved + 1);  // one is moved at a time, and all that were stay
   for (const MergeInput& input : inputs) addStation(merge, input, inputs.front());
-  writer.write(std::move(merge.content), work.threads);
-  if (existing == Existing::replace) {
+  return merge;
+}
+
+/// Keeps others from writing a station that is there; null when none is.
+std::unique_ptr<SqlDatabase> lockThere(const fs::path& output, const StationPatience& patience) {
+  return isDatabase(output) ? lockStation(output, patience) : nullptr;
+}
+
+}  // namespace
+
+Station::Counts mergeStations(std::span<const MergeInput> inputs, const fs::path& output, Existing existing,
+                              const MergeWork& work) {
+  if (inputs.empty()) throw ConfigError("no station is given to merge, expected one or more");
+  checkIsNoInput(output, inputs);
+  checkOutput(output, existing);
+  const std::unique_ptr<SqlDatabase> there = lockThere(output, work.patience);
+  StationWriter writer(output);
+  {
+    Merge merge = mergeOf(inputs, output, work);
+    writer.write(std::move(merge.content), work.threads);
+  }
+  if (there) {
     writer.publishOver();
-  } else if (!writer.publishNew()) {
+    return Station::open(output).counts();
+  }
+  while (!writer.publishNew()) {
     checkOutput(output, existing);
+    if (existing == Existing::refuse) continue;  // it has gone again
+    const std::unique_ptr<SqlDatabase> meanwhile = lockThere(output, work.patience);
+    writer.publishOver();
+    break;
   }
   return Station::open(output).counts();
 }

@@ -62,12 +62,6 @@ TileSource::Part MapTiles::next() {
   return {.tile = map_.tile(keys_[place_++])};
 }
 
-std::vector<BlockView> viewsOf(const TileKey& key, const MapTile& tile) {
-  std::vector<BlockView> views;
-  tile.forEachBlock([&](int index, const Block& block) { views.push_back({blockAt(key, index), &block}); });
-  return views;
-}
-
 std::int64_t surfacesIn(const TileBlocks& blocks) {
   std::int64_t count = 0;
   for (const auto& [key, block] : blocks) count += static_cast<std::int64_t>(block.surfaceCount());
@@ -102,6 +96,13 @@ void forEachDecodedTile(StationTiles& tiles, const std::filesystem::path& path, 
     });
     for (std::size_t i = 0; i < batch.size(); ++i) visit(blocks[i], faults[i]);
   }
+}
+
+void loadTiles(StationTiles& tiles, const std::filesystem::path& path, int threads, ThermalMap& map) {
+  forEachDecodedTile(tiles, path, threads, [&](TileBlocks& blocks, const std::string& fault) {
+    if (!fault.empty()) throw DataError(fault);
+    for (auto& [key, block] : blocks) map.setBlock(key, std::move(block));
+  });
 }
 
 }  // namespace thermovox

@@ -83,8 +83,10 @@ class MapTiles final : public TileSource {
 void forEachDecodedTile(StationTiles& tiles, const std::filesystem::path& path, int threads,
                         const std::function<void(TileBlocks&, const std::string&)>& visit);
 
+/// Puts all tiles into a map without content, which may have a limit of its memory. Throws DataError naming
+/// the first damaged one.
+void loadTiles(StationTiles& tiles, const std::filesystem::path& path, int threads, ThermalMap& map);
+
 [[nodiscard]] std::int64_t surfacesIn(const TileBlocks& blocks);
-/// The blocks of a tile where they are.
-[[nodiscard]] std::vector<BlockView> viewsOf(const TileKey& key, const MapTile& tile);
 
 }  // namespace thermovox

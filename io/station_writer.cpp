@@ -98,8 +98,7 @@ void writeTiles(SqlDatabase& database, std::vector<std::unique_ptr<TileSource>>&
   }
 }
 
-}  // namespace
-
+/// In the order of their flights: by first stamp, then name; those without stamps last.
 void sortMissions(std::vector<MissionRecord>& missions) {
   const auto key = [](const MissionRecord& m) {
     return std::tuple(!m.first, m.first, m.name, m.last, m.readings, m.points, m.coloured, m.mapped_at, m.rig,
@@ -108,6 +107,8 @@ void sortMissions(std::vector<MissionRecord>& missions) {
   std::sort(missions.begin(), missions.end(),
             [&](const MissionRecord& a, const MissionRecord& b) { return key(a) < key(b); });
 }
+
+}  // namespace
 
 StationWriter::StationWriter(fs::path path) : path_(std::move(path)), file_(path_) {
   checkFolderOf(path_);

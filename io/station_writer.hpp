@@ -44,7 +44,4 @@ class StationWriter {
   std::optional<UnfinishedFile> unfinished_;
 };
 
-/// The missions in the order of their flights: by first stamp, then name; those without stamps last.
-void sortMissions(std::vector<MissionRecord>& missions);
-
 }  // namespace thermovox

@@ -4,10 +4,12 @@
 
 namespace thermovox {
 
-/// A file in the making, beside the one that it is to become: NAME.<process>-<n>.unfinished. Who makes it
-/// holds a lock on it (flock), which ends with the process however that ends, and which other hosts see that
-/// share the folder: what nobody holds was left by a process that was killed. On file systems without such
-/// locks nothing is ever taken for left.
+/// A file in the making, beside the one that it is to become: NAME.<host>-<process>-<n>.unfinished. Who makes
+/// it holds a lock on it (flock), which ends with the process however that ends: what nobody on its host
+/// holds was left by a process that was killed. Other hosts that share the folder need not see the lock
+/// (sshfs, NFS with local locks); they take a file for left when besides it has not changed for an hour. So
+/// does everybody with one that could not be locked, whose <host> begins with an @. On file systems without
+/// such locks nothing is ever taken for left.
 class UnfinishedFile {
  public:
   /// Removes what killed processes left beside `file`, and creates an empty one. Throws DataError naming

@@ -63,7 +63,7 @@ ReadingIntegrator::ReadingIntegrator(const OccupancyModel& model, double resolut
       marks_(1) {}
 
 void ReadingIntegrator::setThreads(int threads) {
-  threads_ = std::max(threads, 1);
+  threads_ = threadsToUse(threads);
 }
 
 void ReadingIntegrator::integrate(std::span<const MappedReturn> reading, Carving carving, TileTable& tiles) {
@@ -145,11 +145,11 @@ void ReadingIntegrator::sweep(Carving carving, int workers) {
 }
 
 void ReadingIntegrator::sweepTile(const SweptTile& swept, Carving carving) {
+  if (swept.tile == nullptr) return;  // only beside a hit
   std::vector<ReadingMarks::Tile*> marked;
   for (const ReadingMarks& marks : marks_) {
     if (ReadingMarks::Tile* tile = marks.find(swept.key)) marked.push_back(tile);
   }
-  if (swept.tile == nullptr) return;  // only beside a hit
   for (std::size_t word = 0; word < kTileBlocks / 64; ++word) {
     // Where no ray was followed, only blocks with a hit have marks.
     std::uint64_t blocks = carving == Carving::none ? 0 : ~std::uint64_t{0};

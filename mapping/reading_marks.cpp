@@ -22,7 +22,10 @@ std::unique_ptr<ReadingMarks::Bits, ReadingMarks::Freer> ReadingMarks::newBits()
 ReadingMarks::Tile& ReadingMarks::lookUp(const TileKey& key) {
   Tile*& tile = table_[key];
   if (tile == nullptr) {
-    if (used_.size() == pool_.size()) pool_.push_back(std::make_unique<Tile>());
+    if (used_.size() == pool_.size()) {
+      pool_.push_back(std::make_unique<Tile>());
+      bytes_ += pool_.back()->counted = pool_.back()->memoryBytes();
+    }
     tile = pool_[used_.size()].get();
     tile->key = key;
     used_.push_back(tile);
@@ -89,15 +92,19 @@ void ReadingMarks::clear() {
     tile->entered = false;
     tile->hit.clear();
     tile->beside.clear();
+    bytes_ -= tile->counted;
+    bytes_ += tile->counted = tile->memoryBytes();
   }
   used_.clear();
   table_.clear();
-  if (pool_.size() > kKeptTiles) pool_.resize(kKeptTiles);
+  keepAtMost(kMostKept);
 }
 
 void ReadingMarks::keepAtMost(std::size_t bytes) {
-  const std::size_t kept = std::max(bytes / kTileBytes, used_.size());
-  if (pool_.size() > kept) pool_.resize(kept);
+  while (bytes_ > bytes && pool_.size() > used_.size()) {
+    bytes_ -= pool_.back()->counted;
+    pool_.pop_back();
+  }
 }
 
 }  // namespace thermovox

@@ -30,10 +30,13 @@ class ReadingMarks {
     /// bits clears them.
     std::unique_ptr<Bits, Freer> passed;
     SparseTileBits hit;
-    SparseTileBits beside;  ///< next to a hit; only where asked for
+    SparseTileBits beside;    ///< next to a hit; only where asked for
+    std::size_t counted = 0;  ///< bytes of it in memoryBytes()
+
+    [[nodiscard]] std::size_t memoryBytes() const {
+      return sizeof(Tile) + (passed ? sizeof(Bits) : 0) + hit.lineBytes() + beside.lineBytes();
+    }
   };
-  /// Memory of a tile with each bit in use.
-  static constexpr std::size_t kTileBytes = sizeof(Tile) + 3 * sizeof(Bits);
 
   void markHit(const CellPlace& place);
   /// The six cells that share a face with this one.
@@ -46,12 +49,14 @@ class ReadingMarks {
   /// The marks of a tile; null when it has none.
   [[nodiscard]] Tile* find(const TileKey& key) const;
   /// Forgets the tiles, of which nothing is marked as passed any more, and keeps the memory of some, at most
-  /// 10 MB, for the next reading.
+  /// kMostKept, for the next reading.
   void clear();
+  static constexpr std::size_t kMostKept = 10'000'000;  ///< bytes
   /// Gives the memory of forgotten tiles beyond so many bytes back.
   void keepAtMost(std::size_t bytes);
-  /// Memory of the tiles, marked or forgotten, as if each bit were in use.
-  [[nodiscard]] std::size_t memoryBytes() const { return pool_.size() * kTileBytes; }
+  /// Memory of the tiles, marked or forgotten; how much the marks of the reading at hand take is known from
+  /// the next clear() on.
+  [[nodiscard]] std::size_t memoryBytes() const { return bytes_; }
 
  private:
   struct Slot {
@@ -59,7 +64,6 @@ class ReadingMarks {
     Tile* tile = nullptr;
   };
   static constexpr std::size_t kSlots = 4096;
-  static constexpr std::size_t kKeptTiles = 256;
   [[nodiscard]] static std::size_t slotOf(const TileKey& key) {
     return static_cast<std::size_t>((key.x & 15) | (key.y & 15) << 4 | (key.z & 15) << 8);
   }
@@ -87,6 +91,7 @@ class ReadingMarks {
   std::unordered_map<TileKey, Tile*, TileKeyHash> table_;
   std::vector<Tile*> used_;
   std::vector<std::unique_ptr<Tile>> pool_;  ///< those in use first
+  std::size_t bytes_ = 0;                    ///< the sum of what is counted of them
   RayCrossings::Codes codes_;
 };
 

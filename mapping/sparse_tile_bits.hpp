@@ -31,6 +31,8 @@ class SparseTileBits {
     const auto index = static_cast<std::size_t>(block);
     return (blocks_[index / 64] >> (index % 64) & 1) != 0 ? &lines_[line_[index]] : nullptr;
   }
+  /// Memory besides the object's own.
+  [[nodiscard]] std::size_t lineBytes() const { return lines_.capacity() * sizeof(CellBits); }
   /// Keeps the memory for the next bits.
   void clear() {
     blocks_.fill(0);

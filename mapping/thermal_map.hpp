@@ -31,7 +31,7 @@ class ThermalMap {
 
   explicit ThermalMap(const Options& options);
 
-  /// How many threads integrate() may use; 1 at first. The result does not depend on it.
+  /// How many threads integrate() may use (0: one a processor); 1 at first. The result is always the same.
   void setThreads(int threads) { integrator_.setThreads(threads); }
   /// From now on integrate(), observe(), setBlock(), mergeBlock() and merge() put tiles into the store when
   /// the map takes more memory than the limit; all queries bring back what they need. While a reading is

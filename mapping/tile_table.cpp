@@ -93,13 +93,7 @@ void TileTable::trim(std::size_t reserved) {
 
 void TileTable::spill(const TileKey& key) {
   const auto found = tiles_.find(key);
-  std::vector<BlockView> blocks;
-  found->second.tile->forEachBlock([&](int index, const Block& block) {
-    blocks.push_back({blockAt(key, index), &block});
-  });
-  std::sort(blocks.begin(), blocks.end(),
-            [](const BlockView& a, const BlockView& b) { return a.key < b.key; });
-  store_->put(key, blocks);
+  store_->put(key, viewsOf(key, *found->second.tile));
   bytes_ -= found->second.bytes;
   tiles_.erase(found);
   ++spills_;

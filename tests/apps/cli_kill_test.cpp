@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <random>
@@ -61,8 +62,62 @@ void expectSound(const fs::path& station) {
   EXPECT_THAT(Station::open(station).verify(), testing::IsEmpty());
 }
 
-/// Kills runs that add a mission to a station, with these options, at any moment: the mission is in it wholly
-/// or not at all, and what lies beside it the next run removes.
+std::size_t unfinishedIn(const TestFolder& folder) {
+  const std::set<std::string> names = namesUnder(folder.path());
+  return static_cast<std::size_t>(std::count_if(
+      names.begin(), names.end(), [](const std::string& n) { return n.ends_with(".unfinished"); }));
+}
+
+/// Kills runs as soon as an unfinished file is to be seen, until one of them leaves it there.
+bool leavesUnfinished(const TestFolder& folder, const std::vector<std::string>& arguments) {
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    const pid_t child = start(arguments);
+    int status = 0;
+    bool ended = false;
+    while (!ended && unfinishedIn(folder) == 0) ended = ::waitpid(child, &status, WNOHANG) == child;
+    if (ended) continue;
+    ::kill(child, SIGKILL);
+    ::waitpid(child, &status, 0);
+    if (unfinishedIn(folder) > 0) return true;
+  }
+  return false;
+}
+
+/// Kills runs that write a station at any moment: it is as it was before, or not there where it was not, or
+/// as a whole run leaves it, and what lies beside it the next run removes.
+void expectAsBeforeOrAsAfter(const TestFolder& folder, const fs::path& station,
+                             const std::vector<std::string>& arguments) {
+  const auto content = [&] { return fs::exists(station) ? bytesOf(station) : std::string(); };
+  const std::string before = content();
+  const auto restore = [&] {
+    fs::remove(station);
+    if (!before.empty()) std::ofstream(station, std::ios::binary) << before;
+  };
+  const double whole = run(arguments);
+  const std::string after = content();
+  const std::set<std::string> names = namesUnder(folder.path());
+  EXPECT_NE(before, after);
+  std::mt19937_64 rng(23);
+  int killed = 0, written = 0;
+  for (int i = 0; i < kills(); ++i) {
+    restore();
+    const double moment = whole * 1.1 * static_cast<double>(rng() >> 11) * 0x1p-53;
+    killed += killAfter(moment, arguments);
+    const std::string now = content();
+    EXPECT_TRUE(now == before || now == after) << "killed after " << moment << " s";
+    if (!now.empty()) expectSound(station);
+    written += now == after;
+  }
+  std::cout << killed << " runs killed on the way, " << written << " had put the station into place\n";
+  restore();
+  EXPECT_TRUE(leavesUnfinished(folder, arguments));
+  restore();
+  run(arguments);
+  EXPECT_TRUE(content() == after);
+  EXPECT_EQ(namesUnder(folder.path()), names);
+}
+
+/// The same for runs that add a mission to a station, with these options.
 void expectWhollyOrNotAtAll(const TestFolder& folder, LaserKind laser,
                             const std::vector<std::string>& options) {
   const std::string monday = flyMission(folder, "monday", laser).string();
@@ -71,26 +126,7 @@ void expectWhollyOrNotAtAll(const TestFolder& folder, LaserKind laser,
   std::vector<std::string> add{"map", tuesday, "--station", station};
   run({"map", monday, "--station", station, "--resolution", "0.08"});
   add.insert(add.end(), options.begin(), options.end());
-  const std::string before = bytesOf(station);
-  const double whole = run(add);
-  const std::string after = bytesOf(station);
-  const std::set<std::string> names = namesUnder(folder.path());
-  std::mt19937_64 rng(23);
-  int killed = 0, with_mission = 0;
-  for (int i = 0; i < kills(); ++i) {
-    std::ofstream(station, std::ios::binary) << before;
-    const double moment = whole * 1.1 * static_cast<double>(rng() >> 11) * 0x1p-53;
-    killed += killAfter(moment, add);
-    expectSound(station);
-    const std::string now = bytesOf(station);
-    EXPECT_TRUE(now == before || now == after) << "killed after " << moment << " s";
-    with_mission += now == after;
-  }
-  std::cout << killed << " runs killed on the way, " << with_mission << " with the mission in the station\n";
-  std::ofstream(station, std::ios::binary) << before;
-  run(add);
-  EXPECT_EQ(bytesOf(station), after);
-  EXPECT_EQ(namesUnder(folder.path()), names);
+  expectAsBeforeOrAsAfter(folder, station, add);
 }
 
 TEST(CliKill, AStationHasTheMissionWhollyOrNotAtAll) {
@@ -113,32 +149,45 @@ TEST(CliKill, SoItIsOfPaintingWhileTilesWaitInAFile) {
   expectWhollyOrNotAtAll(TestFolder(), LaserKind::cloud, {"--paint", "--memory", "2"});
 }
 
-TEST(CliKill, AMergeIsThereWhollyOrNotAtAll) {
+TEST(CliKill, AStationOfVersion1IsThatOrHasTheMission) {
   const TestFolder folder;
-  const fs::path out = folder / "all.tvx";
+  const std::string mission = flyMission(folder, "today", LaserKind::scan).string();
+  const fs::path station = folder / "old.tvx";
+  fs::copy_file(fs::path(THERMOVOX_SOURCE_DIR) / "tests" / "data" / "station_v1.tvx", station);
+  expectAsBeforeOrAsAfter(folder, station, {"map", mission, "--station", station.string()});
+}
+
+/// The stations of three missions, with cells of this edge (metres).
+std::vector<std::string> threeStations(const TestFolder& folder, const char* resolution = "0.02") {
   std::vector<std::string> stations;
   for (const std::uint64_t seed : {21U, 22U, 23U}) {
     const fs::path mission = flyMission(folder, fmt::format("m{}", seed), LaserKind::scan, seed);
     stations.push_back(folder / fmt::format("s{}.tvx", seed));
-    run({"map", mission.string(), "--resolution", "0.02", "--station", stations.back()});
+    run({"map", mission.string(), "--resolution", resolution, "--station", stations.back()});
   }
-  const std::vector<std::string> merge{"merge", stations[0], stations[1], stations[2], "-o", out.string()};
-  const double whole = run(merge);
-  const std::string expected = bytesOf(out), input = bytesOf(stations[0]);
-  std::mt19937_64 rng(29);
-  int killed = 0, merged = 0;
-  for (int i = 0; i < kills(); ++i) {
-    fs::remove(out);
-    const double moment = whole * 1.1 * static_cast<double>(rng() >> 11) * 0x1p-53;
-    killed += killAfter(moment, merge);
-    if (fs::exists(out)) {
-      ++merged;
-      expectSound(out);
-      EXPECT_EQ(bytesOf(out), expected);
-    }
-    EXPECT_EQ(bytesOf(stations[0]), input);
-  }
-  std::cout << killed << " merges killed on the way, " << merged << " were there\n";
+  return stations;
+}
+
+TEST(CliKill, AMergeIsThereWhollyOrNotAtAll) {
+  const TestFolder folder;
+  const std::vector<std::string> s = threeStations(folder);
+  const std::string input = bytesOf(s[0]);
+  expectAsBeforeOrAsAfter(folder, folder / "all.tvx", {"merge", s[0], s[1], s[2], "-o", folder / "all.tvx"});
+  EXPECT_TRUE(bytesOf(s[0]) == input);
+}
+
+TEST(CliKill, AMergeOverAStationIsThatOrTheMerge) {
+  const TestFolder folder;
+  const std::vector<std::string> s = threeStations(folder);
+  expectAsBeforeOrAsAfter(folder, s[2], {"merge", s[0], s[1], "-o", s[2], "--force"});
+}
+
+TEST(CliKill, AMergeThatMovesAStationIsThereWhollyOrNotAtAll) {
+  const TestFolder folder;
+  const std::vector<std::string> s = threeStations(folder, "0.05");
+  expectAsBeforeOrAsAfter(
+      folder, folder / "all.tvx",
+      {"merge", s[0], s[1], "-o", folder / "all.tvx", "--transform", "1 0.5 0 0 0 0.6 0.8", "--memory", "1"});
 }
 
 }  // namespace

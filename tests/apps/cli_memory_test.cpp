@@ -108,6 +108,34 @@ TEST(MergeMemory, DoesNotChangeOneByteOfWhatIsMoved) {
   EXPECT_EQ(thermovox(folder.path(), merge + "--memory 0 -o x.tvx").code, 2);
 }
 
+TEST(ExportMemory, AndThreadsDoNotChangeOneByteOfWhatIsExported) {
+  const TestFolder folder;
+  fly(folder, "a", 31);
+  ASSERT_EQ(thermovox(folder.path(), "map a --resolution 0.05 --station a.tvx").code, 0);
+  for (const std::string ending : {"ply", "bt", "ot"}) {
+    ASSERT_EQ(thermovox(folder.path(), "export a.tvx roomy." + ending).code, 0);
+    ASSERT_EQ(thermovox(folder.path(), "export a.tvx --memory 1 --threads 2 narrow." + ending).code, 0);
+    EXPECT_TRUE(bytesOf(folder / ("narrow." + ending)) == bytesOf(folder / ("roomy." + ending))) << ending;
+  }
+  EXPECT_EQ(thermovox(folder.path(), "export a.tvx --memory 0 x.ply").code, 2);
+}
+
+TEST(Threads, AreOneForEachProcessorWhereZeroAreAskedForInEveryVerb) {
+  const TestFolder folder;
+  fly(folder, "a", 31);
+  fly(folder, "b", 32);
+  for (const char* name : {"a", "b"})
+    ASSERT_EQ(thermovox(folder.path(), fmt::format("map {0} --threads 0 --station {0}.tvx", name)).code, 0);
+  for (const char* verb : {"merge a.tvx b.tvx -o out.tvx", "export a.tvx out.ply", "map a --station x.tvx"}) {
+    EXPECT_EQ(thermovox(folder.path(), fmt::format("{} --threads 0", verb)).code, 0) << verb;
+    for (const int wrong : {-1, 1025}) {
+      const Outcome refused = thermovox(folder.path(), fmt::format("{} --threads {}", verb, wrong));
+      EXPECT_EQ(refused.code, 2) << verb;
+      EXPECT_THAT(refused.err, testing::HasSubstr("expected 1 to 1024 (or 0 for all processors)"));
+    }
+  }
+}
+
 TEST(MapMemoryReport, TilesThatWaitInAFileAreToldOf) {
   const TestFolder folder;
   fly(folder, "a", 31);

@@ -1,4 +1,8 @@
+#include <chrono>
+#include <future>
+
 #include "io/station.hpp"
+#include "io/station_file.hpp"
 #include "tests/apps/program.hpp"
 
 namespace thermovox {
@@ -96,6 +100,26 @@ TEST(CliMerge, MovesStationsOnRequest) {
   EXPECT_THAT(station.verify(), testing::IsEmpty());
   for (const MissionRecord& mission : station.missions())
     EXPECT_EQ(mission.T_world_mission.has_value(), mission.name == "b");
+}
+
+TEST(CliMap, WaitsForAnotherWriterOnceItsWorkIsDoneAndSaysSo) {
+  const TestFolder folder;
+  flyMission(folder, "a", LaserKind::beam, 1);
+  flyMission(folder, "b", LaserKind::beam, 2);
+  ASSERT_EQ(test::thermovox(folder.path(), "map a --station s.tvx").code, 0);
+  auto other = lockStation(folder / "s.tvx", {});
+  auto mapping = std::async(std::launch::async,
+                            [&] { return test::thermovox(folder.path(), "map b --station s.tvx 2>words"); });
+  const auto waits = [&] {
+    return fs::exists(folder / "words") &&
+           bytesOf(folder / "words").find("s.tvx: waits for another process") != std::string::npos;
+  };
+  while (mapping.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready && !waits()) continue;
+  EXPECT_TRUE(waits());
+  EXPECT_EQ(Station::open(folder / "s.tvx").counts().missions, 1);
+  other.reset();
+  EXPECT_EQ(mapping.get().code, 0);
+  EXPECT_EQ(Station::open(folder / "s.tvx").counts().missions, 2);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/station.hpp"
 #include "tests/apps/program.hpp"
 
 namespace thermovox::test {
@@ -44,6 +45,15 @@ void flyCloudAndBeam(const TestFolder& folder) {
   simulate::simulateMission(options, folder / "beam");
 }
 
+/// What a mission's parameters in the station say of the missions whose geometry it painted.
+nlohmann::json sceneOf(const fs::path& station, const std::string& name) {
+  for (const MissionRecord& mission : Station::open(station).missions()) {
+    if (mission.name == name)
+      return nlohmann::json::parse(mission.parameters).value("scene", nlohmann::json());
+  }
+  return {};
+}
+
 TEST(MapInTwoPasses, HasTheSameGeometryAndSaysSo) {
   const TestFolder folder;
   flyMission(folder, "hall", LaserKind::scan);
@@ -79,6 +89,8 @@ TEST(MapInTwoPasses, ABeamPaintsAnEarlierMissionsMap) {
   const nlohmann::json before = mapped(folder, "cloud --station s.tvx");
   const nlohmann::json after = mapped(folder, "beam --station s.tvx --paint");
   EXPECT_GT(after.at("painted"), 1000);
+  EXPECT_EQ(sceneOf(folder / "s.tvx", "beam"), nlohmann::json({"cloud"}));
+  EXPECT_TRUE(sceneOf(folder / "s.tvx", "cloud").is_null());
   EXPECT_LT(after.at("voxels").get<int>(), before.at("voxels").get<int>() + 200);  // its own returns
   EXPECT_EQ(thermovox(folder.path(), "info s.tvx --verify").code, 0);
 }
@@ -96,6 +108,7 @@ TEST(ImportedGeometry, EntersTheStationOnceAndIsPainted) {
   const nlohmann::json both = mapped(folder, "beam --geometry plant.ply --paint --station s.tvx");
   EXPECT_GT(both.at("painted"), 1000);
   EXPECT_EQ(both.at("mission"), "beam");
+  EXPECT_EQ(sceneOf(folder / "s.tvx", "beam"), nlohmann::json({"plant"}));
   const nlohmann::json info = thermovox(folder.path(), "info s.tvx --json").json();
   EXPECT_EQ(info.at("missions").size(), 2U);
   expectRefused(folder.path(), "map --geometry plant.ply --station s.tvx", {"s.tvx", "'plant'", "--again"});

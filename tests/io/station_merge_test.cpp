@@ -115,6 +115,28 @@ TEST(StationMerge, RefusesOutputsThatAreInputsOrTaken) {
   EXPECT_EQ(bytesOf(folder / "taken.tvx"), bytesOf(stationOf(folder, {1, 2}, "ab.tvx")));
 }
 
+TEST(StationMerge, WaitsForWhoeverWritesTheStationThatItReplaces) {
+  const TestFolder folder;
+  const fs::path a = stationOf(folder, {1}, "a.tvx"), b = stationOf(folder, {2}, "b.tvx"),
+                 out = stationOf(folder, {3}, "out.tvx");
+  const std::string before = bytesOf(out);
+  sqlite3* other = nullptr;
+  ASSERT_EQ(sqlite3_open(out.c_str(), &other), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+  int waits = 0;
+  const auto replace = [&](std::optional<std::chrono::milliseconds> most, std::function<void()> begins) {
+    mergeStations(std::vector<MergeInput>{{a, std::nullopt}, {b, std::nullopt}}, out, Existing::replace,
+                  {.patience = {most, std::move(begins)}});
+  };
+  EXPECT_THAT(messageOf<DataError>([&] { replace(std::chrono::milliseconds(60), [&] { ++waits; }); }),
+              HasSubstr("out.tvx: another process is writing it"));
+  EXPECT_EQ(waits, 1);
+  EXPECT_TRUE(bytesOf(out) == before);
+  EXPECT_THAT(namesIn(folder.path()), testing::UnorderedElementsAre("a.tvx", "b.tvx", "out.tvx"));
+  replace(std::nullopt, [&] { sqlite3_close(other); });
+  EXPECT_TRUE(bytesOf(out) == bytesOf(stationOf(folder, {1, 2}, "ab.tvx")));
+}
+
 TEST(StationMerge, RefusesADamagedStation) {
   const TestFolder folder;
   const fs::path a = stationOf(folder, {1}, "a.tvx"), b = stationOf(folder, {2}, "b.tvx");

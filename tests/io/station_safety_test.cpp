@@ -180,6 +180,32 @@ TEST(StationSafety, ASecondWriterIsRefusedWhenItHasWaitedInVain) {
   EXPECT_NO_THROW(add());  // and nothing of the attempt is in the way
 }
 
+// As other writers do who were there before.
+TEST(StationSafety, ASecondWriterGoesOnToTheFileThatReplacedTheOneItWaitedFor) {
+  const TestFolder folder;
+  const fs::path path = stationOf(folder, {1}), next = stationOf(folder, {1, 3}, "next.tvx");
+  std::array<sqlite3*, 2> others{};
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    ASSERT_EQ(sqlite3_open((i == 0 ? path : next).c_str(), &others[i]), SQLITE_OK);
+    ASSERT_EQ(sqlite3_exec(others[i], "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+  }
+  int waits = 0;
+  const auto finish = [&] {
+    ++waits;
+    fs::rename(next, path);
+    sqlite3_close(others[0]);
+  };
+  EXPECT_THAT(test::messageOf<DataError>([&] {
+                (void)lockStation(path, {.most = std::chrono::milliseconds(100), .begins = finish});
+              }),
+              HasSubstr("plant.tvx: another process is writing it"));
+  EXPECT_EQ(waits, 1);
+  Station station =
+      Station::open(path, {.patience = {.most = std::nullopt, .begins = [&] { sqlite3_close(others[1]); }}});
+  station.addMission(record("m2"), randomMission(2), KnownMission::refuse);
+  EXPECT_EQ(test::bytesOf(path), test::bytesOf(stationOf(folder, {1, 2, 3}, "expected.tvx")));
+}
+
 TEST(StationSafety, WritersThatWaitAllGetTheirMissionsIn) {
   const TestFolder folder;
   const fs::path path = stationOf(folder, {1});

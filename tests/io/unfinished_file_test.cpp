@@ -39,9 +39,17 @@ TEST(UnfinishedFile, IsGoneWithItsObjectUnlessItWasKept) {
   EXPECT_THAT(namesIn(folder.path()), testing::ElementsAre("plant.tvx"));
 }
 
+/// As this host names it.
+std::string nameWith(const std::string& numbers) {
+  const TestFolder folder;
+  const UnfinishedFile file = beside(folder);
+  const std::string name = file.path().filename();
+  return name.substr(0, name.rfind('-', name.rfind('-') - 1)) + "-" + numbers + ".unfinished";
+}
+
 TEST(UnfinishedFile, OfAKilledProcessIsRemovedWhoeverHasItsNumberNow) {
   const TestFolder folder;
-  folder.write("plant.tvx.1-0.unfinished", "of a process on another host, whose number lives here");
+  folder.write(nameWith("1-0"), "of a process whose number another one has now");
   const pid_t child = fork();
   if (child == 0) {
     const UnfinishedFile file = beside(folder);
@@ -55,8 +63,7 @@ TEST(UnfinishedFile, OfAKilledProcessIsRemovedWhoeverHasItsNumberNow) {
 
 TEST(UnfinishedFile, ThatAnybodyHoldsStays) {
   const TestFolder folder;
-  const fs::path held =
-      folder.write("plant.tvx.999999999-0.unfinished", "of a number that does not live here");
+  const fs::path held = folder.write(nameWith("999999999-0"), "of a number that does not live here");
   const int descriptor = ::open(held.c_str(), O_RDWR | O_CLOEXEC);
   ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
   (void)beside(folder);
@@ -66,13 +73,34 @@ TEST(UnfinishedFile, ThatAnybodyHoldsStays) {
   EXPECT_FALSE(fs::exists(held));
 }
 
+// Where the locks of other hosts are not seen; and where its maker could not lock it.
+TEST(UnfinishedFile, OfAnotherHostOrWithoutALockGoesAfterAnHourWithoutAChange) {
+  const TestFolder folder;
+  const std::string host = nameWith("1-0").substr(std::string("plant.tvx.").size());
+  for (const std::string& name : {std::string("plant.tvx.other-host-1-0.unfinished"), "plant.tvx.@" + host}) {
+    const fs::path file = folder.write(name, "of nobody who is seen here");
+    const auto age = [&](std::chrono::minutes by) {
+      fs::last_write_time(file, fs::file_time_type::clock::now() - by);
+      (void)beside(folder);
+      return fs::exists(file);
+    };
+    EXPECT_TRUE(age(std::chrono::minutes(58))) << name;
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
+    EXPECT_TRUE(age(std::chrono::minutes(62))) << name;
+    ::close(descriptor);
+    EXPECT_FALSE(age(std::chrono::minutes(62))) << name;
+  }
+}
+
 TEST(UnfinishedFile, OfOtherNamesStay) {
   const TestFolder folder;
-  const std::vector<std::string> names{"other.tvx.1-0.unfinished", "plant.tvx.mine.unfinished",
-                                       "plant.tvx.unfinished", "plant.tvx.1-0.unfinished.txt"};
+  const std::string mine = nameWith("1-0");
+  const std::vector<std::string> names{"other.tvx" + mine.substr(9), "plant.tvx.mine.unfinished",
+                                       "plant.tvx.unfinished", mine + ".txt"};
   for (const std::string& name : names) folder.write(name, "mine");
-  fs::create_directory(folder / "plant.tvx.1-0.unfinished");
-  fs::create_symlink(folder / names[0], folder / "plant.tvx.1-1.unfinished");
+  fs::create_directory(folder / mine);
+  fs::create_symlink(folder / names[0], folder / nameWith("1-1"));
   (void)beside(folder);
   EXPECT_EQ(namesIn(folder.path()).size(), names.size() + 2);
 }

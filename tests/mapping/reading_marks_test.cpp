@@ -66,14 +66,28 @@ TEST(ReadingMarks, AreThoseOfAPlainSetReadingAfterReading) {
 TEST(ReadingMarks, KeepAsMuchMemoryAsTheyMay) {
   ReadingMarks marks;
   for (int i = 0; i < 10; ++i) marks.markHit(placeOf({100 * i, 0, 0}));
-  EXPECT_EQ(marks.memoryBytes(), 10 * ReadingMarks::kTileBytes);
+  EXPECT_EQ(marks.memoryBytes(), 10 * sizeof(ReadingMarks::Tile));
   marks.keepAtMost(0);  // nothing that is marked goes
   EXPECT_EQ(takeMarks(marks).size(), 10U);
-  EXPECT_EQ(marks.memoryBytes(), 10 * ReadingMarks::kTileBytes);
-  marks.keepAtMost(3 * ReadingMarks::kTileBytes + 1);
-  EXPECT_EQ(marks.memoryBytes(), 3 * ReadingMarks::kTileBytes);
+  const std::size_t of_tile = marks.memoryBytes() / 10;
+  EXPECT_EQ(of_tile, sizeof(ReadingMarks::Tile) + sizeof(CellBits));  // one block of each was hit
+  marks.keepAtMost(3 * of_tile + 1);
+  EXPECT_EQ(marks.memoryBytes(), 3 * of_tile);
   for (int i = 0; i < 5; ++i) marks.markHit(placeOf({0, 100 * i, 0}));
   EXPECT_EQ(takeMarks(marks).size(), 5U);
+}
+
+TEST(ReadingMarks, KeepWhatIsAllocatedAndTenMegabytesAtMost) {
+  ReadingMarks marks;
+  const auto mark = [&marks](double length) {
+    marks.markPassed(RayCells({0.05, 0.05, 0.05}, {length, 0.05, 0.05}, 0.1));
+    (void)takeMarks(marks);
+    return marks.memoryBytes();
+  };
+  const std::size_t of_tile = sizeof(ReadingMarks::Tile) + sizeof(ReadingMarks::Bits);
+  EXPECT_EQ(mark(63.0), 10 * of_tile);
+  EXPECT_EQ(mark(63.0), 10 * of_tile);
+  EXPECT_EQ(mark(4000.05), ReadingMarks::kMostKept / of_tile * of_tile);
 }
 
 TEST(ReadingMarks, LieBesideAHitAcrossTheBordersOfTiles) {
