@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Maps missions of a 3D laser end to end at 0.05 m and prints what that took in Markdown.
 
-    tests/benchmark/long_mission.py THERMOVOX WORK_FOLDER SECONDS|MISSION...
+    tests/benchmark/long_mission.py THERMOVOX WORK_FOLDER SECONDS[@MB]|MISSION...
 
-A mission is a folder that is there, or as many seconds of simulated flight, made in WORK_FOLDER.
+A mission is a folder that is there, or as many seconds of simulated flight, made in WORK_FOLDER; @MB maps it
+with so much --memory.
 Reading the files, colouring, mapping and writing the station all count; simulating does not. Peak memory is
 the largest resident set of the process. Standard library only.
 """
 import csv
+import functools
 import json
 import os
 import pathlib
@@ -28,6 +30,7 @@ def run(command):
     return output, time.monotonic() - start, usage.ru_utime + usage.ru_stime, 1024 * usage.ru_maxrss
 
 
+@functools.cache
 def simulated(thermovox, work, seconds):
     mission = work / f"cloud-{seconds}"
     run([thermovox, "simulate", str(mission), "--laser", "cloud", "--duration", seconds, "--seed", "1", "--force"])
@@ -42,16 +45,19 @@ def sensor_seconds(mission):
 
 
 def row_of(thermovox, work, which):
-    mission = simulated(thermovox, work, which) if which.isdigit() else pathlib.Path(which)
+    name, _, memory = which.partition("@")
+    mission = simulated(thermovox, work, name) if name.isdigit() else pathlib.Path(name)
     station = work / f"{mission.name}.tvx"
     seconds = sensor_seconds(mission)
     station.unlink(missing_ok=True)
     output, wall, processor, peak = run(
-        [thermovox, "map", str(mission), "--station", str(station), "--resolution", "0.05", "--json"])
+        [thermovox, "map", str(mission), "--station", str(station), "--resolution", "0.05", "--json"]
+        + (["--memory", memory] if memory else []))
     report = json.loads(output)
     points = report["points"]
+    kept = f", `--memory {memory}`: {report['spilled_tiles']} times a tile did not fit" if memory else ""
     cells = [
-        f"{mission.name}, {seconds:.0f} s, {report['readings']} sweeps", f"{points / 1e6:.2f}", f"{wall:.1f} s",
+        f"{mission.name}, {seconds:.0f} s, {report['readings']} sweeps{kept}", f"{points / 1e6:.2f}", f"{wall:.1f} s",
         f"{processor:.1f} s", f"{points / wall / 1e3:.0f}", f"{seconds / wall:.1f}", f"{seconds / processor:.1f}",
         f"{peak / 1e6:.0f} MB", f"{report['voxels'] / 1e6:.2f}", f"{station.stat().st_size / 1e6:.1f} MB",
     ]

@@ -100,6 +100,21 @@ def moved_object(results):
     ] for row in rows))
 
 
+def station(results):
+    """Speeds in bytes of the map as it lies in memory, from and to files in the page cache."""
+    kinds = {"stationSave": "a new station is written", "stationLoad": "it is read"}
+    rows = [(row["name"].split("/"), row) for row in results["benchmarks"]
+            if row["name"].split("/")[0] in kinds and "map_MB" in row]
+    if not rows:
+        return
+    print("Saving and loading (hall, 0.1 m), bytes of the map in memory by the clock on the wall:\n")
+    print_table(["what", "threads", "map, MB", "file, MB", "MB/s"], ([
+        kinds[name[0]], next((part.split(":")[1] for part in name if part.startswith("threads:")), "1"),
+        f"{row['map_MB']:.0f}", f"{row['file_MB']:.1f}" if "file_MB" in row else "",
+        f"{1e3 * row['map_MB'] / row['real_time']:.0f}",
+    ] for name, row in rows))
+
+
 def main(arguments):
     if len(arguments) != 1:
         raise SystemExit(__doc__)
@@ -108,6 +123,7 @@ def main(arguments):
     carving(results)
     surfaces(results)
     moved_object(results)
+    station(results)
 
 
 if __name__ == "__main__":
