@@ -28,7 +28,7 @@ void makeFolderOf(const fs::path& file) {
 }
 
 /// Writes the file of an image that has just appeared; false when there is none to write.
-bool take(const ImageJob& job, const fs::path& image, const fs::path& out) {
+bool take(const ImageJob& job, const fs::path& image, const fs::path& out, CameraFolder& images) {
   if (job.existing == Existing::refuse && fs::exists(out)) {
     spdlog::info("{}: was there before, {} is passed over (--force replaces it)", out.string(),
                  image.string());
@@ -41,7 +41,11 @@ bool take(const ImageJob& job, const fs::path& image, const fs::path& out) {
     return true;
   } catch (const DataError& error) {
     if (!std::string_view(error.what()).starts_with(image.string())) throw;  // it is the output's
-    if (fs::exists(image)) spdlog::warn("{}", error.what());                 // else the card was taken out
+    if (fs::exists(image)) {
+      spdlog::warn("{}", error.what());
+    } else {
+      images.putBack(image);  // the card was taken out
+    }
     return false;
   }
 }
@@ -61,7 +65,7 @@ void watchImages(ImageJob job, const ImageWatch& watch) {
     if (!image) continue;
     const fs::path out = outputOf(*image, watch);
     job.existing = ours.contains(out) ? Existing::replace : existing;  // the image has changed since
-    if (!take(job, *image, out)) continue;
+    if (!take(job, *image, out, images)) continue;
     ours.insert(out);
     ++taken;
   }

@@ -68,6 +68,10 @@ void CameraFolder::passOver() {
   for (const auto& [name, waiting] : std::exchange(waiting_, {})) give(name, waiting.state);
 }
 
+void CameraFolder::putBack(const fs::path& image) {
+  given_.erase(image.lexically_relative(folder_).string());
+}
+
 void CameraFolder::look(const FolderEvents::Changes& changes) {
   WaitingImages still_there;
   std::error_code error;
@@ -101,26 +105,33 @@ void CameraFolder::lookAt(const fs::path& file, const FolderEvents::Changes& cha
   if (given != given_.end() && given->second.state == state) return;
   const auto before = waiting_.find(name);
   const bool is_still = before != waiting_.end() && before->second.state == state;
-  Waiting waiting = is_still ? before->second : Waiting{state, looked_, false};
+  const bool was_open = before != waiting_.end() && before->second.open;
+  Waiting waiting = is_still ? before->second : Waiting{state, looked_, false, was_open};
   if (const auto change = changes.find(file); change != changes.end()) {
     waiting.written = change->second == FolderEvents::Change::written;
-    if (!waiting.written) waiting.since = looked_;
+    waiting.open = !waiting.written;
+    if (waiting.open) waiting.since = looked_;
   }
   still_there.emplace(name, waiting);
 }
 
 bool CameraFolder::isReady(const Waiting& image) const {
-  return image.written || looked_ - image.since >= options_.settled;
+  const auto settled = image.open ? std::max(options_.settled, options_.settled_open) : options_.settled;
+  return image.written || looked_ - image.since >= settled;
 }
 
 CameraFolder::WaitingImages::iterator CameraFolder::nextReady() {
   auto best = waiting_.end();
   for (auto image = waiting_.begin(); image != waiting_.end(); ++image) {
     if (!isReady(image->second)) continue;
+    if (best == waiting_.end()) {
+      best = image;
+      continue;
+    }
+    // Memory cards count time in steps of two seconds: of equal times the names, which count up, decide.
+    const auto age = [](const auto& one) { return std::pair(one->second.state.changed, one->first); };
     const bool newest_first = options_.order == Order::newest_first;
-    const bool is_before = best != waiting_.end() && image->second.state.changed < best->second.state.changed;
-    const bool is_after = best != waiting_.end() && image->second.state.changed > best->second.state.changed;
-    if (best == waiting_.end() || (newest_first ? is_after : is_before)) best = image;
+    if (newest_first ? age(best) < age(image) : age(image) < age(best)) best = image;
   }
   return best;
 }

@@ -23,9 +23,11 @@ class CameraFolder {
   };
   struct Options {
     Order order = Order::oldest_first;
-    /// A file is wholly written when the kernel says that it was closed; where that is not heard, when its
-    /// size and time of change have stood still so long.
+    /// A file is wholly written when the kernel says that it was closed; where nothing is heard of it, when
+    /// its size and time of change have stood still so long.
     std::chrono::milliseconds settled = std::chrono::milliseconds(2000);
+    /// The same for a file of which is known that somebody has changed it and not closed it.
+    std::chrono::milliseconds settled_open = std::chrono::minutes(1);
     /// How often to look where the kernel says nothing.
     std::chrono::milliseconds look_every = std::chrono::milliseconds(500);
     FolderEvents::Source events = FolderEvents::Source::kernel;
@@ -39,6 +41,9 @@ class CameraFolder {
   [[nodiscard]] std::optional<std::filesystem::path> next(std::chrono::milliseconds longest);
   /// Takes all that is there now for given.
   void passOver();
+  /// An image that next() gave could not be used, because it vanished with the card or could not be read: it
+  /// is given again when it is back, or has changed.
+  void putBack(const std::filesystem::path& image);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -55,6 +60,7 @@ class CameraFolder {
     State state;
     Clock::time_point since;  ///< it stands still
     bool written = false;     ///< as the kernel says
+    bool open = false;        ///< likewise: changed, and not closed since
   };
   using WaitingImages = std::map<std::string, Waiting>;
 

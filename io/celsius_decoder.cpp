@@ -6,6 +6,18 @@
 #include "projection/error.hpp"
 
 namespace thermovox {
+namespace {
+
+/// What cannot be is the file's own.
+CelsiusTable tableFor(const RadiometricParameters& parameters, const std::string& name) {
+  try {
+    return CelsiusTable(parameters);
+  } catch (const ConfigError& error) {
+    throw DataError(name + ": " + error.what());
+  }
+}
+
+}  // namespace
 
 ThermalImage CelsiusDecoder::decode(const RawThermalImage& image, const std::string& name,
                                     const RadiometricOverrides& overrides) {
@@ -13,8 +25,9 @@ ThermalImage CelsiusDecoder::decode(const RawThermalImage& image, const std::str
     throw DataError(name + ": " + none->reason);
   ThermalImage result{.width = image.width, .height = image.height};
   if (const auto* parameters = std::get_if<RadiometricParameters>(&image.rule)) {
+    overrides.validate();
     const RadiometricParameters wanted = overrides.applyTo(*parameters);
-    if (!table_ || !(table_->parameters() == wanted)) table_.emplace(wanted);
+    if (!table_ || !(table_->parameters() == wanted)) table_.emplace(tableFor(wanted, name));
     result.celsius.resize(image.counts.size());
     table_->convert(image.counts, result.celsius);
     return result;

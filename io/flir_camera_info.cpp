@@ -31,7 +31,9 @@ class Fields {
   /// Celsius of a temperature that can be.
   [[nodiscard]] std::optional<double> celsius(std::size_t offset) const {
     const auto kelvin = real(offset);
-    return kelvin && *kelvin > 0.0 && *kelvin < 1e5 ? std::optional(*kelvin + kAbsoluteZero) : std::nullopt;
+    constexpr double hottest = 1e4;  // beyond it a number is damaged
+    return kelvin && *kelvin > 0.0 && *kelvin < hottest ? std::optional(*kelvin + kAbsoluteZero)
+                                                        : std::nullopt;
   }
   [[nodiscard]] std::string text(std::size_t offset, std::size_t length) const {
     return textAt(bytes_, offset, length);

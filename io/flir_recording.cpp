@@ -11,6 +11,9 @@
 namespace thermovox {
 namespace {
 
+/// A frame of any camera is smaller; a larger one is the rest of a damaged recording.
+constexpr std::uint64_t kMostFrameBytes = std::uint64_t{1} << 28;
+
 struct FramePlace {
   std::uint64_t begin = 0;
   std::uint64_t size = 0;
@@ -44,11 +47,18 @@ class FlirRecording final : public ThermalRecording {
   explicit FlirRecording(ByteSource source) : source_(std::move(source)) {
     for (auto begin = nextHeader(source_, 0); begin;) {
       const std::uint64_t left = source_.size() - *begin;
-      const std::uint64_t size = frameSizeAt(source_, *begin);
-      cut_off_ = size > left && !isDecodable({*begin, left});
-      if (cut_off_) break;
-      places_.push_back({*begin, std::min(size, left)});
-      begin = nextHeader(source_, *begin + places_.back().size);
+      FramePlace place{*begin, frameSizeAt(source_, *begin)};
+      if (place.size > left) {  // it is cut off, or its directory is damaged: then the next one is not
+        const auto next = nextHeader(source_, *begin + kFlirHeaderSize);
+        place.size = (next ? *next : source_.size()) - *begin;
+        if (place.size > kMostFrameBytes || !isDecodable(place)) {
+          ++damaged_;
+          begin = next;
+          continue;
+        }
+      }
+      places_.push_back(place);
+      begin = nextHeader(source_, *begin + place.size);
     }
     if (places_.empty()) {
       throw DataError(source_.name() + ": is a FLIR recording whose first frame is cut off after " +
@@ -61,7 +71,8 @@ class FlirRecording final : public ThermalRecording {
   RawThermalImage read(int frame) override {
     if (frame < 0 || frame >= frames()) {
       throw DataError(source_.name() + ": has no frame " + std::to_string(frame) + ", expected 0 to " +
-                      std::to_string(frames() - 1) + (cut_off_ ? " (the last one is cut off)" : ""));
+                      std::to_string(frames() - 1) +
+                      (damaged_ > 0 ? " (" + std::to_string(damaged_) + " more cut off or damaged)" : ""));
     }
     const FramePlace& place = places_[static_cast<std::size_t>(frame)];
     const std::vector<std::byte> bytes = source_.read(place.begin, place.size);
@@ -86,7 +97,7 @@ class FlirRecording final : public ThermalRecording {
 
   ByteSource source_;
   std::vector<FramePlace> places_;
-  bool cut_off_ = false;
+  int damaged_ = 0;  ///< frames that are left out
 };
 
 }  // namespace

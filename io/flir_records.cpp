@@ -196,7 +196,7 @@ RawThermalImage readFlirFrame(const FlirFrame& frame) {
   }
   image.metadata.picture_in_picture =
       pictureInPicture(bytesIfThere(frame, FlirRecordType::picture_in_picture));
-  if (const auto bytes = bytesIfThere(frame, FlirRecordType::embedded_image); !bytes.empty())
+  if (const auto bytes = bytesIfThere(frame, FlirRecordType::embedded_image); bytes.size() > kPixelOffset)
     image.metadata.visible = embeddedPicture(bytes, frame.name() + ": the record of the visible picture");
   return image;
 }

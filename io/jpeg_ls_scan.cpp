@@ -143,9 +143,11 @@ class Scan {
     return (zeros << k) + static_cast<int>(bits_.take(k));
   }
 
-  static int golombBits(int n, int a) {
+  int golombBits(int n, int a) const {
+    constexpr int most_bits = 16, most_error = 1 << 24;  // of samples of 16 bits
     int k = 0;
-    while (n << k < a) ++k;
+    while (k <= most_bits && std::int64_t{n} << k < a) ++k;
+    if (k > most_bits || a > most_error) refuse(what_, "its errors have no end");
     return k;
   }
 

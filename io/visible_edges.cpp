@@ -28,7 +28,8 @@ double spacing(const PixelMap& map) {
 cv::Mat smoothedFor(const VisiblePicture& picture, double step) {
   cv::Mat luminance(picture.height, picture.width, CV_8U);
   std::copy(picture.luminance.begin(), picture.luminance.end(), luminance.begin<std::uint8_t>());
-  if (step > 1.5) cv::GaussianBlur(luminance, luminance, {}, 0.4 * step);
+  constexpr double coarsest = 32.0;  // pixels; beyond it a record is damaged, and the kernel without bound
+  if (step > 1.5) cv::GaussianBlur(luminance, luminance, {}, 0.4 * std::min(step, coarsest));
   return luminance;
 }
 

@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kLargestFile = std::size_t{1} << 28;  // bytes
 /// Pixels that a byte can hold at most: deflate packs 1032 bytes into one, JPEG a block of 64 into 2 bits.
 constexpr double kPixelsPerByte = 1100.0;
+constexpr double kMostPixels = 1e8;
 
 struct PictureSize {
   int width = 0;
@@ -63,7 +64,8 @@ PictureSize claimedSize(std::span<const std::byte> bytes, const std::string& nam
   }
   if (!has_end) throw DataError(name + ": is cut off, expected a whole picture");
   if (!size || size->width < 1 || size->height < 1 ||
-      static_cast<double>(size->width) * size->height > kPixelsPerByte * static_cast<double>(bytes.size()))
+      static_cast<double>(size->width) * size->height >
+          std::min(kMostPixels, kPixelsPerByte * static_cast<double>(bytes.size())))
     throw DataError(name + ": the size of the picture is damaged, expected one that its bytes can hold");
   return *size;
 }

@@ -84,6 +84,8 @@ std::vector<double> numbersOf(const std::optional<std::string>& text) {
 }  // namespace
 
 std::optional<std::string> xmpText(std::string_view packet, std::string_view name, std::string_view prefix) {
+  constexpr std::size_t longest = std::size_t{1} << 20;  // cameras write some kilobytes
+  packet = packet.substr(0, longest);
   for (std::size_t place = packet.find(name); place != std::string_view::npos;
        place = packet.find(name, place + 1)) {
     const std::size_t end = place + name.size();

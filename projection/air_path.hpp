@@ -57,7 +57,7 @@ THERMOVOX_INLINE_LOOP AirPath::Corrected AirPath::at(double celsius, double dist
   const double radiated = a * (radiated0 - planck.o) + b + planck.o;
   const double power = planck.r1 / (planck.r2 * radiated) + planck.f;
   const double kelvin = planck.b / portableLog(power);
-  const bool counts = tau > 0.0 && radiated > 0.0 && kelvin > 0.0;
+  const bool counts = tau > 0.0 && radiated > 0.0 && kelvin > 0.0 && kelvin < PlanckConstants::kHottest;
   // dp / dT = r2 / r1 p^2 E b / T^2
   const double ratio = radiated0 / radiated;
   const double kelvins = kelvin / kelvin0;

@@ -40,8 +40,7 @@ double PlanckConstants::signal(double celsius) const {
 double PlanckConstants::celsius(double signal) const {
   const double radiated = signal + o;
   const double kelvin = b / portableLog(r1 / (r2 * radiated) + f);
-  constexpr double hottest = 1e6;  // constants of damaged files give any heat, or one without end
-  return radiated > 0.0 && kelvin > 0.0 && kelvin < hottest ? kelvin + kAbsoluteZero : kNan;
+  return radiated > 0.0 && kelvin > 0.0 && kelvin < kHottest ? kelvin + kAbsoluteZero : kNan;
 }
 
 void RadiometricParameters::validate() const {

@@ -32,6 +32,9 @@ struct PlanckConstants {
   double f = 0.0;
   double o = 0.0;  ///< counts
 
+  /// Kelvin; constants of damaged files give any heat, or one without end.
+  static constexpr double kHottest = 1e6;
+
   bool operator==(const PlanckConstants&) const = default;
   [[nodiscard]] double signal(double celsius) const;
   /// NaN where no temperature gives the signal.

@@ -111,7 +111,8 @@ std::string segmentsOf(const std::string& fff) {
 }
 
 std::vector<unsigned char> picture(int width, std::span<const std::uint16_t> counts) {
-  const auto [coldest, hottest] = std::minmax_element(counts.begin(), counts.end());
+  const auto extremes = std::minmax_element(counts.begin(), counts.end());
+  const auto coldest = extremes.first, hottest = extremes.second;
   const int span = std::max(*hottest - *coldest, 1);
   cv::Mat grey(static_cast<int>(counts.size()) / width, width, CV_8U);
   std::transform(counts.begin(), counts.end(), grey.begin<unsigned char>(), [&](std::uint16_t count) {

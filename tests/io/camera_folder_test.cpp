@@ -137,11 +137,34 @@ TEST_P(AnyCameraFolder, PassesOverWhatIsThere) {
   EXPECT_EQ(images.next(kSoon), folder / "2.jpg");
 }
 
+TEST_P(AnyCameraFolder, GivesAgainWhatWasPutBack) {
+  CameraFolder images = open();
+  put(folder / "1.jpg", "one");
+  ASSERT_EQ(images.next(kSoon), folder / "1.jpg");
+  EXPECT_FALSE(images.next(kAWhile).has_value());
+  images.putBack(folder / "1.jpg");
+  EXPECT_EQ(images.next(kSoon), folder / "1.jpg");
+  EXPECT_FALSE(images.next(kAWhile).has_value());
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, AnyCameraFolder,
                          testing::Values(FolderEvents::Source::kernel, FolderEvents::Source::none),
                          [](const auto& test) {
                            return test.param == FolderEvents::Source::kernel ? "events" : "looking";
                          });
+
+TEST(CameraFolder, WaitsForAFileThatIsKnownToBeOpen) {
+  const TestFolder folder;
+  CameraFolder images(folder.path(), {.settled = 50ms, .look_every = 20ms});
+  EXPECT_FALSE(images.next(0ms).has_value());
+  std::ofstream stream(folder / "1.seq", std::ios::binary);
+  stream << "a part" << std::flush;
+  EXPECT_FALSE(images.next(500ms).has_value());
+  stream << "and the rest";
+  stream.close();
+  EXPECT_EQ(images.next(kSoon), folder / "1.seq");
+  EXPECT_FALSE(images.next(kAWhile).has_value());
+}
 
 TEST(CameraFolder, HearsFromTheKernelThatAnImageIsWhole) {
   const TestFolder folder;

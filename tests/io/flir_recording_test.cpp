@@ -104,5 +104,41 @@ TEST(FlirRecording, NamesADamagedFrameInTheMiddleAndGivesTheOthers) {
   EXPECT_EQ(recording->read(3).counts, frames[3].counts);
 }
 
+/// The frame, in whose directory a number of the record of this type is two thousand million. Little endian.
+std::string withDamagedRecord(std::string frame, std::uint16_t type, std::size_t place_in_entry) {
+  const auto number = [&frame](std::size_t place) {
+    return *numberAt<std::uint32_t>(std::as_bytes(std::span(frame)), place, ByteOrder::little);
+  };
+  for (std::uint32_t i = 0; i < number(0x1C); ++i) {
+    const std::size_t entry = number(0x18) + 32 * i;
+    if ((number(entry) & 0xFFFF) == type) return frame.replace(entry + place_in_entry, 4, "\xFF\xFF\xFF\x7F");
+  }
+  ADD_FAILURE() << "no record of type " << type;
+  return frame;
+}
+
+TEST(FlirRecording, FindsWhatFollowsAFrameThatClaimsTheRestOfTheFile) {
+  constexpr std::size_t offset = 12, size = 16;
+  constexpr std::uint16_t counts = 0x01, picture_in_picture = 0x2A;
+  struct Damage {
+    std::uint16_t type;
+    std::size_t place;
+    bool usable;  ///< the frame, all the same
+  };
+  const std::vector<FlirFile> frames = differentFrames();
+  for (const auto& [type, place, usable] :
+       {Damage{picture_in_picture, size, true}, {counts, size, true}, {counts, offset, false}}) {
+    std::string bytes;
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      bytes += i == 2 ? withDamagedRecord(flirFrame(frames[i]), type, place) : flirFrame(frames[i]);
+    const auto recording = openThermalRecording(std::as_bytes(std::span(bytes)), "flight.seq");
+    ASSERT_EQ(recording->frames(), usable ? 5 : 4);
+    EXPECT_EQ(recording->read(2).counts, frames[usable ? 2 : 3].counts);
+    EXPECT_EQ(recording->read(usable ? 4 : 3).counts, frames[4].counts);
+    const std::string told = messageOf<DataError>([&] { static_cast<void>(recording->read(9)); });
+    EXPECT_EQ(told.find("(1 more cut off or damaged)") == std::string::npos, usable) << told;
+  }
+}
+
 }  // namespace
 }  // namespace thermovox
