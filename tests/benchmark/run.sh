@@ -2,8 +2,7 @@
 # Builds the benchmarks and measures the map against its peers, all in one run: tables in Markdown, and the
 # curve of a map that grows. Needs some ten minutes and 3 GB of memory.
 #   tests/benchmark/run.sh [--long] [--write] [BUILD]
-# --long maps a mission of 600 s too, also with a tenth of the memory that its map takes (another ten minutes,
-# 1 GB of disk); --write puts tables and picture into
+# --long maps a mission of 600 s too (another ten minutes, 1 GB of disk); --write puts tables and picture into
 # mapping/. BUILD is a build folder with the benchmarks (default: that of the preset release, built here).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -17,7 +16,7 @@ missions=(6)
 build=build/release
 while [ $# -gt 0 ]; do
   case "$1" in
-    --long) missions+=(600 600@15) ;;
+    --long) missions+=(600) ;;
     --write) write=yes ;;
     -*)
       sed -n '2,/^set /s/^# \{0,1\}//p' "$0" >&2
