@@ -45,7 +45,7 @@ bool isWithin(const fs::path& path, const fs::path& folder) {
 
 void checkUsage(ImageArgs& args) {
   ImageJob& job = args.job;
-  const bool writes_tiff = args.watched ? isTiff(args.watch.ending) : isTiff(args.out);
+  const bool writes_tiff = args.watched ? args.watch.ending == ".tiff" : isTiff(args.out);
   if (!args.watched) checkEnding(args.out, {".tiff", ".tif", ".png", ".jpg", ".jpeg"});
   if (args.watched && isWithin(args.out, args.in))
     throw UsageError("--watch: OUT lies in the folder that is watched; expected a folder elsewhere");

@@ -56,6 +56,17 @@ TEST_F(ImageWatchVerb, KeepsFilesOfAnEarlierRunUnlessForced) {
   EXPECT_NE(bytesOf(folder / "out/a.jpg.tiff"), "of an earlier run");
 }
 
+TEST_F(ImageWatchVerb, WritesAllFramesOfARecordingIntoATiffAndNoneIntoAPicture) {
+  const auto frame = [](std::uint64_t seed) {
+    return flirFrame({.width = 40, .height = 30, .counts = calmCounts(40, 30, seed), .parameters = e40()});
+  };
+  folder.write("card/a.seq", frame(1) + frame(2));
+  EXPECT_EQ(watch("--idle 1 --all").code, 0);
+  EXPECT_EQ(openThermalRecording(folder / "out/a.seq.tiff")->frames(), 2);
+  EXPECT_EQ(watch("--idle 1 --all --as png").code, 2);
+  EXPECT_EQ(watch("--idle 1 --edges").code, 2);
+}
+
 TEST_F(ImageWatchVerb, EndsWhereItCannotWrite) {
   folder.write("card/a.jpg", image(1));
   folder.write("out", "is no folder");
