@@ -105,19 +105,21 @@ void CameraFolder::lookAt(const fs::path& file, const FolderEvents::Changes& cha
   if (given != given_.end() && given->second.state == state) return;
   const auto before = waiting_.find(name);
   const bool is_still = before != waiting_.end() && before->second.state == state;
-  const bool was_open = before != waiting_.end() && before->second.open;
-  Waiting waiting = is_still ? before->second : Waiting{state, looked_, false, was_open};
+  const bool was_open = before != waiting_.end() && before->second.heard == FolderEvents::Change::touched;
+  Waiting waiting{state, looked_, was_open ? std::optional(FolderEvents::Change::touched) : std::nullopt};
+  if (is_still) waiting = before->second;
   if (const auto change = changes.find(file); change != changes.end()) {
-    waiting.written = change->second == FolderEvents::Change::written;
-    waiting.open = !waiting.written;
-    if (waiting.open) waiting.since = looked_;
+    waiting.heard = change->second;
+    if (waiting.heard == FolderEvents::Change::touched) waiting.since = looked_;
   }
   still_there.emplace(name, waiting);
 }
 
 bool CameraFolder::isReady(const Waiting& image) const {
-  const auto settled = image.open ? std::max(options_.settled, options_.settled_open) : options_.settled;
-  return image.written || looked_ - image.since >= settled;
+  if (image.heard == FolderEvents::Change::written) return true;
+  const bool open = image.heard == FolderEvents::Change::touched;
+  return looked_ - image.since >=
+         (open ? std::max(options_.settled, options_.settled_open) : options_.settled);
 }
 
 CameraFolder::WaitingImages::iterator CameraFolder::nextReady() {

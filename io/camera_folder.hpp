@@ -58,9 +58,8 @@ class CameraFolder {
   };
   struct Waiting {
     State state;
-    Clock::time_point since;  ///< it stands still
-    bool written = false;     ///< as the kernel says
-    bool open = false;        ///< likewise: changed, and not closed since
+    Clock::time_point since;                    ///< it stands still
+    std::optional<FolderEvents::Change> heard;  ///< last, from the kernel
   };
   using WaitingImages = std::map<std::string, Waiting>;
 

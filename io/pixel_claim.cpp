@@ -5,7 +5,6 @@
 namespace thermovox {
 namespace {
 
-constexpr std::uint64_t kMostPixels = 100'000'000;
 /// No codec packs pixels tighter than about this, so few bytes that claim a large image are damaged.
 constexpr std::uint64_t kTightestPacking = 10'000;
 

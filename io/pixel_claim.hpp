@@ -5,6 +5,9 @@
 
 namespace thermovox {
 
+/// No picture of a camera has more.
+inline constexpr std::uint64_t kMostPixels = 100'000'000;
+
 /// What the header of an image claims, beside the bytes that are there to hold it.
 struct PixelClaim {
   std::uint64_t width = 0;

@@ -9,6 +9,7 @@
 #include "io/byte_order.hpp"
 #include "io/input_file.hpp"
 #include "io/jpeg_segments.hpp"
+#include "io/pixel_claim.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -17,7 +18,6 @@ namespace {
 constexpr std::size_t kLargestFile = std::size_t{1} << 28;  // bytes
 /// Pixels that a byte can hold at most: deflate packs 1032 bytes into one, JPEG a block of 64 into 2 bits.
 constexpr double kPixelsPerByte = 1100.0;
-constexpr double kMostPixels = 1e8;
 
 struct PictureSize {
   int width = 0;
@@ -65,7 +65,7 @@ PictureSize claimedSize(std::span<const std::byte> bytes, const std::string& nam
   if (!has_end) throw DataError(name + ": is cut off, expected a whole picture");
   if (!size || size->width < 1 || size->height < 1 ||
       static_cast<double>(size->width) * size->height >
-          std::min(kMostPixels, kPixelsPerByte * static_cast<double>(bytes.size())))
+          std::min(double{kMostPixels}, kPixelsPerByte * static_cast<double>(bytes.size())))
     throw DataError(name + ": the size of the picture is damaged, expected one that its bytes can hold");
   return *size;
 }
