@@ -28,6 +28,7 @@ struct ImageArgs {
   double celsius_offset = kAbsoluteZero;
   std::vector<double> span;
   std::vector<double> percentile{1.0, 99.9};
+  std::vector<CLI::Option*> of_pictures;  ///< options that say how a picture looks
   bool watched = false;
   ImageWatch watch;
 };
@@ -51,7 +52,11 @@ void checkUsage(ImageArgs& args) {
     throw UsageError("--watch: OUT lies in the folder that is watched; expected a folder elsewhere");
   if (job.counts && !writes_tiff) throw UsageError("--counts: OUT has to be a .tiff");
   if (job.all && !writes_tiff) throw UsageError("--all: OUT has to be a .tiff");
-  if (job.edges.wanted() && writes_tiff) throw UsageError("--edges, --visible: OUT has to be a .png or .jpg");
+  if (writes_tiff) {
+    refuseOptions(args.of_pictures,
+                  args.watched ? "--watch writes TIFFs without colours, expected --as png or --as jpg"
+                               : "OUT is a TIFF, which has no colours, expected a .png or .jpg");
+  }
   checkRadiometry(job.overrides);
   if (job.counts && (job.overrides.any() || args.celsius_per_count))
     throw UsageError("--counts: the counts are written as they are, whatever they mean; leave the rest out");
@@ -87,15 +92,19 @@ void addScale(CLI::App& verb, ImageArgs& args) {
       ->needs(per_count);
 }
 
+/// Of pictures; a TIFF has none of it.
 void addLooks(CLI::App& verb, ImageArgs& args) {
-  addPalette(verb, args.job.palette);
+  CLI::Option* palette = addPalette(verb, args.job.palette);
   CLI::Option* span =
       verb.add_option("--span", args.span, "Temperatures at the two ends of the palette, LO HI [C]")
           ->expected(2);
-  verb.add_option("--percentile", args.percentile,
-                  "The same as percentiles of the image, LO HI [0 to 100] (default 1 99.9)")
-      ->expected(2)
-      ->excludes(span);
+  CLI::Option* percentile =
+      verb.add_option("--percentile", args.percentile,
+                      "The same as percentiles of the image, LO HI [0 to 100] (default 1 99.9)")
+          ->expected(2)
+          ->excludes(span);
+  args.of_pictures = {palette, span, percentile};
+  for (CLI::Option* edges : addEdges(verb, args.job.edges)) args.of_pictures.push_back(edges);
 }
 
 void addWatch(CLI::App& verb, ImageArgs& args) {
@@ -156,7 +165,6 @@ void addImage(CLI::App& app) {
           ->check(CLI::NonNegativeNumber);
   verb->add_flag("--all", args->job.all, "All frames, as a TIFF of so many pages")->excludes(frame);
   addLooks(*verb, *args);
-  addEdges(*verb, args->job.edges);
   addWatch(*verb, *args);
   verb->add_flag_callback(
       "--force", [args] { args->job.existing = Existing::replace; }, "Replace OUT when it is there");
