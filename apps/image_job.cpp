@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "io/celsius_decoder.hpp"
+#include "io/scale_warning.hpp"
 #include "io/thermal_picture.hpp"
 #include "io/thermal_recording.hpp"
 #include "io/thermal_tiff_writer.hpp"
@@ -26,13 +27,8 @@ namespace {
 
 /// Says what a reader of the picture should know.
 void warnAbout(const fs::path& in, const RawThermalImage& image) {
-  const auto* t_linear = std::get_if<TLinear>(&image.rule);
-  if (image.rule_source == RuleSource::counts && t_linear != nullptr) {
-    spdlog::warn(
-        "{}: does not say what its counts mean; by their range they are taken for {} C each, above {} C "
-        "(--celsius-per-count says another)",
-        in.string(), t_linear->celsius_per_count, t_linear->celsius_offset);
-  }
+  const auto warning = scaleWarning(image, in.string(), {"--celsius-per-count", "--celsius-per-count"});
+  if (warning) spdlog::warn("{}", *warning);
 }
 
 void checkScale(const ImageJob& job, const fs::path& in, const RawThermalImage& image) {

@@ -215,7 +215,8 @@ void runOverlay(OverlayArgs& args) {
   (void)spanFrom(args.span);
   checkFolderOf(args.out);
   checkFolder(args);
-  OpenedMission opened = openMission(args.mission);
+  OpenedMission opened =
+      openMission(args.mission, {.warn = [](const std::string& warning) { spdlog::warn("{}", warning); }});
   if (!opened.frames)
     throw DataError(args.mission.string() +
                     ": has no thermal images, expected a mission with a thermal camera");
