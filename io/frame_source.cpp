@@ -79,7 +79,9 @@ class ListedFrames final : public FrameSource {
   /// The image of a row. Rows that follow each other are often frames of one file, which stays open.
   ThermalImage read(const StampedFile& row) {
     if (!recording_ || row.file != opened_) {
-      recording_ = openThermalRecording(row.file, {.t_linear = camera_.t_linear, .named_by = row.place});
+      recording_ = openThermalRecording(
+          row.file,
+          {.t_linear = camera_.t_linear, .named_by = row.place, .visible = VisibleInFrame::leave_out});
       opened_ = row.file;
     }
     const RawThermalImage raw = recording_->read(row.page);

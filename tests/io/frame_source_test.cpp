@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "io/thermal_recording.hpp"
 #include "io/thermal_tiff_writer.hpp"
 #include "projection/error.hpp"
 #include "tests/io/flir_file.hpp"
@@ -58,6 +59,24 @@ TEST(ReadFrames, TakesEveryFormatOfThermalImages) {
   EXPECT_EQ(counts->image->air, nullptr) << "a linear camera has the air in its counts";
   EXPECT_EQ(frames->next()->image->at(7, 5), 21.5F);
   EXPECT_FALSE(frames->next());
+}
+
+TEST(OpenThermalRecording, LeavesTheVisiblePictureOutOnRequestInEveryFormatThatHasOne) {
+  const test::TestFolder folder;
+  FlirFile file = fileOf(1);
+  file.visible_jpeg = "\xFF\xD8\xFF\xD9";
+  folder.write("a.jpg", test::radiometricJpeg(flirFrame(file)));
+  folder.write("b.seq", flirFrame(file) + flirFrame(file));
+  for (const char* name : {"a.jpg", "b.seq"}) {
+    const auto with = openThermalRecording(folder / name)->read(0);
+    const auto without =
+        openThermalRecording(folder / name,
+                             {.t_linear = {}, .named_by = {}, .visible = VisibleInFrame::leave_out})
+            ->read(0);
+    EXPECT_TRUE(with.metadata.visible) << name;
+    EXPECT_FALSE(without.metadata.visible) << name;
+    EXPECT_EQ(with.counts, without.counts) << name;
+  }
 }
 
 /// Frames of 30000 counts from TIFFs with these gains (none: the file does not say), as they are read.
