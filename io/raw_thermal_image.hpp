@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "projection/radiometry.hpp"
+#include "projection/thermal_image.hpp"
 
 namespace thermovox {
 
@@ -28,12 +29,6 @@ struct EmbeddedPicture {
   int width = 0;
   int height = 0;
   std::vector<std::byte> bytes;
-};
-
-/// Temperatures that the camera is calibrated for, C.
-struct CalibratedRange {
-  double low = 0.0;
-  double high = 0.0;
 };
 
 /// What an XMP packet of a thermal camera says; empty where it does not.
