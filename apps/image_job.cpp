@@ -26,8 +26,9 @@ bool isTiff(const fs::path& path) {
 namespace {
 
 /// Says what a reader of the picture should know.
-void warnAbout(const fs::path& in, const RawThermalImage& image) {
-  const auto warning = scaleWarning(image, in.string(), {"--celsius-per-count", "--celsius-per-count"});
+void warnAbout(const ImageJob& job, const fs::path& in, const RawThermalImage& image) {
+  if (job.t_linear) return;
+  const auto warning = scaleWarning(image, in.string(), {"the rig", "--celsius-per-count"});
   if (warning) spdlog::warn("{}", *warning);
 }
 
@@ -66,7 +67,7 @@ std::string summaryOf(const ThermalStatistics& statistics, const std::optional<C
 
 TemperatureSpan spanOf(const ImageJob& job, const ThermalImage& image) {
   if (job.span) return *job.span;
-  return percentileSpan(image.celsius, job.percentile.low, job.percentile.high).value_or(TemperatureSpan{});
+  return calibratedSpan(image, job.percentile.low, job.percentile.high);
 }
 
 /// Writes frame after frame into a TIFF, or one of them as a picture.
@@ -114,7 +115,8 @@ class FrameWriter {
 std::string writeImage(const ImageJob& job, const fs::path& in, const fs::path& out) {
   checkOutput(out, job.existing);
   RecordingOptions options;
-  options.t_linear = job.t_linear;
+  options.t_linear = job.t_linear ? job.t_linear : job.rig_t_linear;
+  if (!job.edges.embedded) options.visible = VisibleInFrame::leave_out;
   const auto recording = openThermalRecording(in, options);
   const int first = job.all ? 0 : job.frame;
   const int last = job.all ? recording->frames() - 1 : job.frame;
@@ -127,7 +129,7 @@ std::string writeImage(const ImageJob& job, const fs::path& in, const fs::path& 
         recording->frames() == 1 ? in.string() : fmt::format("{}, frame {}", in.string(), frame);
     const std::string told = writer.add(raw, name);
     if (frame > first) continue;
-    if (!job.counts) warnAbout(in, raw);
+    if (!job.counts) warnAbout(job, in, raw);
     summary = told;
   }
   writer.commit();

@@ -27,7 +27,8 @@ std::optional<std::string> scaleWarning(const RawThermalImage& image, const std:
   if (t_linear == nullptr) return std::nullopt;
   if (image.rule_source == RuleSource::counts) {
     return fmt::format(
-        "{}: does not say what its counts mean; by their range they are taken for {} ({} says another)",
+        "{}: does not say what its counts mean; by their range they are taken for {} (where that is wrong, "
+        "give {})",
         image_name, textOf(*t_linear), owner.way_out);
   }
   const std::optional<double>& gain = image.metadata.xmp.t_linear_gain;

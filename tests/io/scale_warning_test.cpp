@@ -22,7 +22,7 @@ TEST(ScaleWarning, TellsAGuess) {
   const auto warning = warningOf(imageOf(TLinear{0.04, kAbsoluteZero}, RuleSource::counts));
   ASSERT_TRUE(warning);
   EXPECT_THAT(*warning, AllOf(testing::StartsWith("a.tiff: "), HasSubstr("0.04 C a count"),
-                              HasSubstr("above -273.15 C"), HasSubstr("its key says another")));
+                              HasSubstr("above -273.15 C"), HasSubstr("give its key")));
 }
 
 TEST(ScaleWarning, NamesBothScalesWhereFileAndRigContradictOneAnother) {
