@@ -112,7 +112,8 @@ TEST_F(ImageVerb, TakesTheRigsScaleBeforeTheFilesButNotBeforeTheUsers) {
   const auto celsius = [&](const std::string& arguments, const std::string& warning) {
     const Outcome outcome = run(arguments + " --force");
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, warning.empty() ? testing::IsEmpty() : testing::HasSubstr(warning));
+    EXPECT_THAT(outcome.err, HasSubstr(warning));
+    EXPECT_EQ(outcome.err.empty(), warning.empty()) << outcome.err;
     return openThermalRecording(folder / "x.tiff")->read(0).celsius[0];
   };
   rig("celsius_per_count: 0.02, celsius_offset: -500, ");
