@@ -14,6 +14,7 @@
 #include "apps/image_watch.hpp"
 #include "apps/radiometry_options.hpp"
 #include "apps/verbs.hpp"
+#include "io/rig_file.hpp"
 
 namespace thermovox {
 namespace {
@@ -24,8 +25,7 @@ struct ImageArgs {
   fs::path in;
   fs::path out;
   ImageJob job;
-  std::optional<double> celsius_per_count;
-  double celsius_offset = kAbsoluteZero;
+  ScaleArgs scale;
   std::vector<double> span;
   std::vector<double> percentile{1.0, 99.9};
   std::vector<CLI::Option*> of_pictures;  ///< options that say how a picture looks
@@ -58,18 +58,25 @@ void checkUsage(ImageArgs& args) {
                                : "OUT is a TIFF, which has no colours, expected a .png or .jpg");
   }
   checkRadiometry(job.overrides);
-  if (job.counts && (job.overrides.any() || args.celsius_per_count))
+  if (job.counts && (job.overrides.any() || args.scale.celsius_per_count || !job.edges.by_rig.rig.empty()))
     throw UsageError("--counts: the counts are written as they are, whatever they mean; leave the rest out");
   const auto& [low, high] = std::pair(args.percentile[0], args.percentile[1]);
   if (!(low >= 0.0 && low < high && high <= 100.0))
     throw UsageError("--percentile: expected two numbers LO < HI from 0 to 100");
   job.percentile = {low, high};
   job.span = spanFrom(args.span);
-  if (args.celsius_per_count) job.t_linear = TLinear{*args.celsius_per_count, args.celsius_offset};
+  job.t_linear = args.scale.scale();
+}
+
+/// Of TIFFs of counts, where the rig says it.
+std::optional<TLinear> scaleOfRig(const fs::path& file) {
+  const Rig rig = readRig(file);
+  return rig.thermal_camera ? rig.thermal_camera->t_linear : std::nullopt;
 }
 
 void runImage(ImageArgs& args) {
   checkUsage(args);
+  if (!args.job.edges.by_rig.rig.empty()) args.job.rig_t_linear = scaleOfRig(args.job.edges.by_rig.rig);
   if (args.watched) {
     args.watch.folder = args.in;
     args.watch.out_folder = args.out;
@@ -80,18 +87,6 @@ void runImage(ImageArgs& args) {
   }
 }
 
-/// What a number in a TIFF of counts means.
-void addScale(CLI::App& verb, ImageArgs& args) {
-  CLI::Option* per_count =
-      verb.add_option("--celsius-per-count", args.celsius_per_count,
-                      "Of a TIFF of counts: degrees a count [C] (default: what the file says, else its "
-                      "camera's, else by the range of the counts)")
-          ->check(CLI::PositiveNumber);
-  verb.add_option("--celsius-offset", args.celsius_offset, "Temperature of count 0 [C]")
-      ->capture_default_str()
-      ->needs(per_count);
-}
-
 /// Of pictures; a TIFF has none of it.
 void addLooks(CLI::App& verb, ImageArgs& args) {
   CLI::Option* palette = addPalette(verb, args.job.palette);
@@ -99,8 +94,10 @@ void addLooks(CLI::App& verb, ImageArgs& args) {
       verb.add_option("--span", args.span, "Temperatures at the two ends of the palette, LO HI [C]")
           ->expected(2);
   CLI::Option* percentile =
-      verb.add_option("--percentile", args.percentile,
-                      "The same as percentiles of the image, LO HI [0 to 100] (default 1 99.9)")
+      verb.add_option(
+              "--percentile", args.percentile,
+              "The same as percentiles of the image, of what the camera is calibrated for, LO HI [0 to 100] "
+              "(default 1 99.9)")
           ->expected(2)
           ->excludes(span);
   args.of_pictures = {palette, span, percentile};
@@ -153,11 +150,13 @@ void addImage(CLI::App& app) {
       ->required();
   verb->add_option("OUT", args->out,
                    ".tiff: 32-bit floats in C, NaN where not known; .png, .jpg: picture by a palette with a "
-                   "scale. The orientation is as stored")
+                   "scale, in which temperatures that the camera is not calibrated for have colours of their "
+                   "own. The orientation is as stored")
       ->required();
   addRadiometryOptions(*verb, args->job.overrides);
-  verb->add_option("--distance", args->job.overrides.distance, "From the object to the camera [m], likewise");
-  addScale(*verb, *args);
+  addDistanceOption(*verb, args->job.overrides);
+  addScaleOptions(*verb, args->scale,
+                  "what the rig says, else the file, else its camera's, else by the range of the counts");
   verb->add_flag("--counts", args->job.counts, "Write the counts as they are stored (16-bit TIFF)");
   CLI::Option* frame =
       verb->add_option("--frame", args->job.frame, "Frame of a recording, page of a TIFF, from 0")

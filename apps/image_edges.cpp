@@ -12,11 +12,15 @@ std::vector<CLI::Option*> addEdges(CLI::App& verb, EdgeArgs& args) {
                       "Draw the edges of this visible picture (JPEG, PNG), laid over the "
                       "thermal image by --rig and --range: at one distance nothing hides anything")
           ->excludes(edges);
-  CLI::Option* rig = verb.add_option("--rig", args.by_rig.rig, "Rig with the thermal and the visible camera")
-                         ->needs(visible);
+  CLI::Option* rig = verb.add_option(
+      "--rig", args.by_rig.rig,
+      "Rig of the camera: says what the counts of a TIFF are, where it has celsius_per_count, "
+      "and how the visible camera of --visible stands");
   CLI::Option* range =
-      verb.add_option("--range", args.by_rig.range,
-                      "Of the surface from the thermal camera, along its optical axis: the laser's [m]")
+      verb.add_option(
+              "--range", args.by_rig.range,
+              "How far the surface is from the thermal camera along its optical axis [m], not along "
+              "the ray to each pixel: what a laser beside the camera measures on a wall that faces it")
           ->check(CLI::PositiveNumber)
           ->needs(visible);
   visible->needs(rig)->needs(range);

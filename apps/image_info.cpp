@@ -61,7 +61,8 @@ Json parametersOf(const RadiometricParameters& p) {
 }
 
 Json scaleOf(const TLinear& t_linear, RuleSource source) {
-  const char* from = source == RuleSource::file    ? "the file"
+  const char* from = source == RuleSource::option  ? "the user"
+                     : source == RuleSource::file  ? "the file"
                      : source == RuleSource::model ? "the camera's model"
                                                    : "the range of the counts";
   return {{"celsius_per_count", t_linear.celsius_per_count},
@@ -97,8 +98,25 @@ Json pixelsOf(const RawThermalImage& image, const std::vector<float>& celsius) {
   return json;
 }
 
-void putTemperatures(Json& json, const RawThermalImage& image, const std::string& name) {
-  const ThermalImage decoded = CelsiusDecoder().decode(image, name);
+/// Throws DataError where what the user knows is of another kind of image.
+void checkKnowledge(const ImageKnowledge& knowledge, const RawThermalImage& image, const std::string& name) {
+  if (std::holds_alternative<NotTemperature>(image.rule)) return;
+  if (knowledge.radiometry.any() && !std::holds_alternative<RadiometricParameters>(image.rule)) {
+    throw DataError(
+        name +
+        ": has no radiometric parameters of its own, expected a FLIR file where one of them is to "
+        "be replaced");
+  }
+  if (knowledge.t_linear && image.rule_source != RuleSource::option) {
+    throw DataError(name +
+                    ": its pixels have a meaning of their own, expected a TIFF of counts for "
+                    "--celsius-per-count");
+  }
+}
+
+void putTemperatures(Json& json, const RawThermalImage& image, const std::string& name,
+                     const RadiometricOverrides& overrides) {
+  const ThermalImage decoded = CelsiusDecoder().decode(image, name, overrides);
   const ThermalStatistics statistics = statisticsOf(decoded, image.metadata.calibrated_range);
   if (statistics.mean) {
     json["min"] = rounded(*statistics.min);
@@ -113,15 +131,16 @@ void putTemperatures(Json& json, const RawThermalImage& image, const std::string
   json["pixels"] = pixelsOf(image, decoded.celsius);
 }
 
-void putRule(Json& json, const RawThermalImage& image) {
+void putRule(Json& json, const RawThermalImage& image, const RadiometricOverrides& overrides) {
   if (const auto* parameters = std::get_if<RadiometricParameters>(&image.rule)) {
-    json["parameters"] = parametersOf(*parameters);
+    json["parameters"] = parametersOf(overrides.applyTo(*parameters));
   } else if (const auto* t_linear = std::get_if<TLinear>(&image.rule)) {
     json["scale"] = scaleOf(*t_linear, image.rule_source);
     if (image.rule_source == RuleSource::counts) {
       json["note"] =
-          "the scale is a guess by the range of the counts; in a mission the rig's celsius_per_count and "
-          "celsius_offset hold";
+          "the scale is a guess by the range of the counts; --celsius-per-count says another, and in a "
+          "mission "
+          "celsius_per_count of the rig";
     }
   }
 }
@@ -138,22 +157,35 @@ void putVisible(Json& json, const ThermalMetadata& metadata) {
   }
 }
 
-void describe(Json& json, const std::filesystem::path& file) {
-  const auto recording = openThermalRecording(file);
-  const RawThermalImage image = recording->read(0);
+/// The first frame, and how many there are.
+struct FirstFrame {
+  RawThermalImage image;
+  int frames = 0;
+};
+
+FirstFrame firstFrameOf(const std::filesystem::path& file, const ImageKnowledge& knowledge) {
+  RecordingOptions options;
+  options.t_linear = knowledge.t_linear;
+  const auto recording = openThermalRecording(file, options);
+  return {recording->read(0), recording->frames()};
+}
+
+void describe(Json& json, const FirstFrame& first, const std::filesystem::path& file,
+              const RadiometricOverrides& overrides) {
+  const RawThermalImage& image = first.image;
   const auto* none = std::get_if<NotTemperature>(&image.rule);
   json["radiometric"] = none == nullptr;
   if (none != nullptr) json["reason"] = file.string() + ": " + none->reason;
   json["format"] = image.metadata.format;
   json["width"] = image.width;
   json["height"] = image.height;
-  json["frames"] = recording->frames();
+  json["frames"] = first.frames;
   json["camera"] = cameraOf(image.metadata);
   putText(json, "time", image.metadata.time);
-  putRule(json, image);
+  putRule(json, image, overrides);
   if (!image.counts.empty()) json["counts"] = countsOf(image.counts);
   if (none == nullptr) {
-    putTemperatures(json, image, file.string());
+    putTemperatures(json, image, file.string(), overrides);
   } else {
     json["pixels"] = pixelsOf(image, {});
   }
@@ -162,14 +194,21 @@ void describe(Json& json, const std::filesystem::path& file) {
 
 }  // namespace
 
-Json imageInfo(const std::filesystem::path& file) {
+Json imageInfo(const std::filesystem::path& file, const ImageKnowledge& knowledge) {
   Json json{{"kind", "image"}};
-  try {
-    describe(json, file);
-  } catch (const Error& error) {  // damaged, or of a kind without temperatures: that too is an answer
-    json["radiometric"] = false;
-    json["reason"] = error.what();
-  }
+  std::optional<FirstFrame> first;
+  const auto answer = [&json](const auto& step) {
+    try {
+      step();
+    } catch (const Error& error) {  // damaged, or of a kind without temperatures: that too is an answer
+      json["radiometric"] = false;
+      json["reason"] = error.what();
+    }
+  };
+  answer([&] { first = firstFrameOf(file, knowledge); });
+  if (!first) return json;
+  if (knowledge.any()) checkKnowledge(knowledge, first->image, file.string());
+  answer([&] { describe(json, *first, file, knowledge.radiometry); });
   return json;
 }
 

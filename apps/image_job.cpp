@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "io/celsius_decoder.hpp"
+#include "io/scale_warning.hpp"
 #include "io/thermal_picture.hpp"
 #include "io/thermal_recording.hpp"
 #include "io/thermal_tiff_writer.hpp"
@@ -25,14 +26,10 @@ bool isTiff(const fs::path& path) {
 namespace {
 
 /// Says what a reader of the picture should know.
-void warnAbout(const fs::path& in, const RawThermalImage& image) {
-  const auto* t_linear = std::get_if<TLinear>(&image.rule);
-  if (image.rule_source == RuleSource::counts && t_linear != nullptr) {
-    spdlog::warn(
-        "{}: does not say what its counts mean; by their range they are taken for {} C each, above {} C "
-        "(--celsius-per-count says another)",
-        in.string(), t_linear->celsius_per_count, t_linear->celsius_offset);
-  }
+void warnAbout(const ImageJob& job, const fs::path& in, const RawThermalImage& image) {
+  if (job.t_linear) return;
+  const auto warning = scaleWarning(image, in.string(), {"the rig", "--celsius-per-count"});
+  if (warning) spdlog::warn("{}", *warning);
 }
 
 void checkScale(const ImageJob& job, const fs::path& in, const RawThermalImage& image) {
@@ -70,7 +67,7 @@ std::string summaryOf(const ThermalStatistics& statistics, const std::optional<C
 
 TemperatureSpan spanOf(const ImageJob& job, const ThermalImage& image) {
   if (job.span) return *job.span;
-  return percentileSpan(image.celsius, job.percentile.low, job.percentile.high).value_or(TemperatureSpan{});
+  return calibratedSpan(image, job.percentile.low, job.percentile.high);
 }
 
 /// Writes frame after frame into a TIFF, or one of them as a picture.
@@ -118,7 +115,8 @@ class FrameWriter {
 std::string writeImage(const ImageJob& job, const fs::path& in, const fs::path& out) {
   checkOutput(out, job.existing);
   RecordingOptions options;
-  options.t_linear = job.t_linear;
+  options.t_linear = job.t_linear ? job.t_linear : job.rig_t_linear;
+  if (!job.edges.embedded) options.visible = VisibleInFrame::leave_out;
   const auto recording = openThermalRecording(in, options);
   const int first = job.all ? 0 : job.frame;
   const int last = job.all ? recording->frames() - 1 : job.frame;
@@ -131,7 +129,7 @@ std::string writeImage(const ImageJob& job, const fs::path& in, const fs::path& 
         recording->frames() == 1 ? in.string() : fmt::format("{}, frame {}", in.string(), frame);
     const std::string told = writer.add(raw, name);
     if (frame > first) continue;
-    if (!job.counts) warnAbout(in, raw);
+    if (!job.counts) warnAbout(job, in, raw);
     summary = told;
   }
   writer.commit();

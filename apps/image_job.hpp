@@ -15,8 +15,9 @@ namespace thermovox {
 /// How `thermovox image` turns a thermal image into a file.
 struct ImageJob {
   RadiometricOverrides overrides;
-  std::optional<TLinear> t_linear;  ///< of TIFFs of counts
-  bool counts = false;              ///< instead of temperatures
+  std::optional<TLinear> t_linear;      ///< of TIFFs of counts
+  std::optional<TLinear> rig_t_linear;  ///< likewise, where the user does not say it
+  bool counts = false;                  ///< instead of temperatures
   int frame = 0;
   bool all = false;  ///< frames
   Palette palette = Palette::inferno;

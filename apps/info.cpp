@@ -8,7 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "apps/arguments.hpp"
 #include "apps/image_info.hpp"
+#include "apps/radiometry_options.hpp"
 #include "apps/verbs.hpp"
 #include "io/csv.hpp"
 #include "io/input_file.hpp"
@@ -30,6 +32,10 @@ struct InfoArgs {
   fs::path thing;
   bool verify = false;
   bool json = false;
+  RadiometricOverrides radiometry;
+  ScaleArgs scale;
+
+  [[nodiscard]] ImageKnowledge knowledge() const { return {radiometry, scale.scale()}; }
 };
 
 bool startsWith(const std::string& head, std::string_view magic) {
@@ -162,9 +168,15 @@ Json verifiedStationInfo(const fs::path& file) {
 }
 
 Json describe(const InfoArgs& args) {
-  switch (kindOf(args.thing)) {
+  checkRadiometry(args.radiometry);
+  const Kind kind = kindOf(args.thing);
+  if (kind != Kind::image && args.knowledge().any()) {
+    throw UsageError(args.thing.string() +
+                     ": is no image; radiometric parameters and --celsius-per-count are of images");
+  }
+  switch (kind) {
     case Kind::image:
-      return imageInfo(args.thing);
+      return imageInfo(args.thing, args.knowledge());
     case Kind::mission:
       return missionInfo(args.thing);
     case Kind::rig:
@@ -217,6 +229,10 @@ void addInfo(CLI::App& app) {
       "info", "Say what a file or folder is: image, mission, rig, captures, bag or station.");
   verb->add_option("THING", args->thing, "File or folder")->required();
   verb->add_flag("--verify", args->verify, "Of a station: check every tile");
+  addRadiometryOptions(*verb, args->radiometry);
+  addDistanceOption(*verb, args->radiometry);
+  addScaleOptions(*verb, args->scale,
+                  "what the file says, else its camera's, else by the range of the counts");
   verb->add_flag("--json", args->json, "Print JSON");
   verb->callback([args] { runInfo(*args); });
 }

@@ -39,7 +39,9 @@ void warnOfHalfACamera(const OpenedMission& opened) {
 /// All missions, in the order of their names on the command line.
 std::vector<OpenedMission> openMissions(const MapJob& job) {
   std::vector<OpenedMission> opened;
-  for (const fs::path& folder : job.missions) opened.push_back(openMission(folder, missionOptions(job)));
+  MissionOptions options = missionOptions(job);
+  options.warn = [](const std::string& warning) { spdlog::warn("{}", warning); };
+  for (const fs::path& folder : job.missions) opened.push_back(openMission(folder, options));
   for (const OpenedMission& mission : opened) warnOfHalfACamera(mission);
   return opened;
 }

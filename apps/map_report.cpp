@@ -1,5 +1,7 @@
 #include "apps/map_report.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -9,9 +11,10 @@ namespace thermovox {
 namespace {
 
 nlohmann::ordered_json missionJson(const MissionReport& report) {
-  return {{"mission", report.mission},   {"readings", report.readings}, {"points", report.points},
-          {"coloured", report.coloured}, {"painted", report.painted},   {"uncoloured", report.uncoloured},
-          {"dropped", report.dropped}};
+  return {{"mission", report.mission}, {"readings", report.readings},
+          {"points", report.points},   {"coloured", report.coloured},
+          {"painted", report.painted}, {"uncoloured", report.uncoloured},
+          {"dropped", report.dropped}, {"outside_calibration", report.outside_calibration}};
 }
 
 void printCounts(const char* title, const std::map<std::string, std::size_t>& counts) {
@@ -26,6 +29,15 @@ void printCounts(const char* title, const std::map<std::string, std::size_t>& co
 }
 
 }  // namespace
+
+void warnOfCalibration(const MissionReport& report) {
+  if (report.outside_calibration == 0) return;
+  spdlog::warn(
+      "mission {}: {} of its {} coloured points have temperatures outside those that the camera is "
+      "calibrated "
+      "for; they are taken as they are",
+      report.mission, report.outside_calibration, report.coloured);
+}
 
 void printJson(const MapResult& result) {
   nlohmann::ordered_json json;

@@ -22,6 +22,9 @@ struct MapResult {
   }
 };
 
+/// Says on standard error how many points have temperatures that their camera is not calibrated for, if any.
+void warnOfCalibration(const MissionReport& report);
+
 /// As one JSON object, or as text for a person; both on standard output.
 void printJson(const MapResult& result);
 void printText(const MapResult& result, const std::filesystem::path& station);

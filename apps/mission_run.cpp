@@ -76,6 +76,7 @@ MissionReport mapOne(OpenedMission& opened, const MapJob& job, std::vector<const
   const MissionReport report = twice ? mapTwice(opened, job, std::move(known), map, points)
                                      : mapOnce(opened, job, std::move(known), map, points);
   checkColours(report, opened.frames != nullptr);
+  warnOfCalibration(report);
   return report;
 }
 

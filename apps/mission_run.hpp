@@ -10,6 +10,7 @@
 
 namespace thermovox {
 
+/// Without a listener to warnings.
 [[nodiscard]] MissionOptions missionOptions(const MapJob& job);
 
 /// Maps one mission into an empty map, in as many passes as asked for, and shows how far it is; `known` is

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "apps/arguments.hpp"
+#include "apps/map_report.hpp"
 #include "apps/progress.hpp"
+#include "apps/radiometry_options.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
 #include "io/mission_folder.hpp"
@@ -19,6 +21,8 @@
 #include "io/overlay_picture.hpp"
 #include "mapping/mission_mapper.hpp"
 #include "projection/error.hpp"
+#include "projection/image_through_air.hpp"
+#include "projection/registration.hpp"
 
 namespace thermovox {
 namespace {
@@ -30,6 +34,7 @@ struct OverlayArgs {
   fs::path out;
   std::size_t every = 1;
   std::vector<double> span;
+  RadiometricOverrides radiometry;
   bool edges = true;
   bool force = false;
 };
@@ -39,6 +44,7 @@ struct FramePoints {
   std::vector<OverlayPoint> points;
   std::vector<Duration> from_frame;           ///< how far in time each return is from the frame
   std::vector<Eigen::Vector3d> places_world;  ///< metres
+  std::vector<PixelDepth> distances;          ///< from the camera, metres, at the points' pixels
 };
 
 using Order = bool (*)(const OverlayPoint&, const OverlayPoint&);
@@ -84,6 +90,13 @@ bool hasVisible(const OpenedMission& opened) {
   return false;
 }
 
+/// The frame as its points are read: of a radiometric one, each pixel through the air of the point nearest to
+/// it in the image.
+ThermalImage imageAsRead(const ThermalImage& image, const FramePoints& points) {
+  if (!image.air) return image;
+  return imageThroughAir(image, nearestDepths(image.width, image.height, points.distances));
+}
+
 /// Gathers the coloured points by frame and draws a frame once no later return can belong to it.
 class OverlaySeries {
  public:
@@ -109,6 +122,7 @@ class OverlaySeries {
       gathered.points.push_back(
           {point.colour->pixel, point.placed.range, point.colour->celsius, point.colour->sigma, ""});
       gathered.places_world.push_back(point.placed.p_world);
+      gathered.distances.push_back({point.colour->pixel, point.colour->range});
       const Time stamp = point.placed.stamp;
       gathered.from_frame.push_back(stamp < frame ? frame - stamp : stamp - frame);
     }
@@ -145,7 +159,8 @@ class OverlaySeries {
     options.span = spanFrom(args_.span);
     if (edges_) options.visible = edges_->on(frame.stamp, gathered.places_world);
     if (options.visible) ++with_edges_;
-    writeOverlayPicture(folder_ / picture, *frame.image, gathered.points, options, Existing::refuse);
+    writeOverlayPicture(folder_ / picture, imageAsRead(*frame.image, gathered), gathered.points, options,
+                        Existing::refuse);
     for (const OverlayPoint& point : gathered.points) {
       if (point.label.empty()) continue;
       table_.write(fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f}\n", formatTime(frame.stamp),
@@ -213,15 +228,19 @@ void checkFolder(const OverlayArgs& args) {
 void runOverlay(OverlayArgs& args) {
   args.out = withoutSlash(args.out);
   (void)spanFrom(args.span);
+  checkRadiometry(args.radiometry);
   checkFolderOf(args.out);
   checkFolder(args);
-  OpenedMission opened = openMission(args.mission);
+  MissionOptions options{.radiometry = args.radiometry};
+  std::unique_ptr<FrameSource> frames = openMission(args.mission, options).frames;
+  options.warn = [](const std::string& warning) { spdlog::warn("{}", warning); };
+  OpenedMission opened = openMission(args.mission, options);
   if (!opened.frames)
     throw DataError(args.mission.string() +
                     ": has no thermal images, expected a mission with a thermal camera");
   const PartialFolder partial(args.out);
   ThermalMap map(ThermalMap::Options{});
-  OverlaySeries series(args, opened, openMission(args.mission).frames, partial.path());
+  OverlaySeries series(args, opened, std::move(frames), partial.path());
   {
     const auto poses = opened.mission.trajectory.poses();
     Progress progress("drawing " + opened.mission.name, poses.front().stamp, poses.back().stamp);
@@ -229,6 +248,7 @@ void runOverlay(OverlayArgs& args) {
         mapMission({opened.mission, *opened.readings, opened.frames.get()}, map, {},
                    {.points = [&series](std::span<const ColouredReturn> reading) { series.add(reading); },
                     .progress = [&progress](Time stamp) { progress.at(stamp); }});
+    warnOfCalibration(report);
     if (report.coloured == 0) {
       throw DataError(args.mission.string() +
                       ": no laser point falls into a thermal image, expected some; check clocks and rig");
@@ -247,7 +267,9 @@ void addOverlay(CLI::App& app) {
       app.add_subcommand("overlay",
                          "Draw the laser points on the thermal images, with temperature [C] and "
                          "distance [m] beside chosen points, and the edges of the visible pictures "
-                         "(visible.csv) where the rig has a visible camera.");
+                         "(visible.csv) where the rig has a visible camera. In radiometric images each "
+                         "pixel is shown through the air of the laser point nearest to it in the image, as "
+                         "each point is through its own.");
   verb->add_option("MISSION", args->mission, "Mission folder")->required();
   verb->add_option("OUT_DIR", args->out, "Folder for the pictures (PNG) and overlay.csv")->required();
   verb->add_option("--every", args->every, "Draw every so many frames")
@@ -256,6 +278,7 @@ void addOverlay(CLI::App& app) {
   verb->add_option("--span", args->span,
                    "Temperatures at the two ends of the palette, LO HI [C] (default: of each image)")
       ->expected(2);
+  addRadiometryOptions(*verb, args->radiometry);
   verb->add_flag("!--no-edges", args->edges, "Leave the edges of the visible pictures out");
   verb->add_flag("--force", args->force, "Replace overlays that are there");
   verb->callback([args] { runOverlay(*args); });

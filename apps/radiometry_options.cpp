@@ -32,6 +32,20 @@ void addRadiometryOptions(CLI::App& verb, RadiometricOverrides& overrides) {
       "about a window, as Thermimage has it) (default single)");
 }
 
+void addDistanceOption(CLI::App& verb, RadiometricOverrides& overrides) {
+  verb.add_option("--distance", overrides.distance, "From the object to the camera [m], likewise");
+}
+
+void addScaleOptions(CLI::App& verb, ScaleArgs& args, const std::string& otherwise) {
+  CLI::Option* per_count =
+      verb.add_option("--celsius-per-count", args.celsius_per_count,
+                      "Of a TIFF of counts: degrees a count [C] (default: " + otherwise + ")")
+          ->check(CLI::PositiveNumber);
+  verb.add_option("--celsius-offset", args.celsius_offset, "Temperature of count 0 [C]")
+      ->capture_default_str()
+      ->needs(per_count);
+}
+
 void checkRadiometry(const RadiometricOverrides& overrides) {
   try {
     overrides.validate();

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "projection/radiometric_overrides.hpp"
 
@@ -10,6 +12,21 @@ namespace thermovox {
 /// The options that replace what radiometric files say of the object, the air and the window; all but the
 /// distance, which only a single image has.
 void addRadiometryOptions(CLI::App& verb, RadiometricOverrides& overrides);
+
+/// `--distance`, of a single image.
+void addDistanceOption(CLI::App& verb, RadiometricOverrides& overrides);
+
+/// What a count of a TIFF means, as the user says it.
+struct ScaleArgs {
+  std::optional<double> celsius_per_count;
+  double celsius_offset = kAbsoluteZero;
+
+  [[nodiscard]] std::optional<TLinear> scale() const {
+    return celsius_per_count ? std::optional(TLinear{*celsius_per_count, celsius_offset}) : std::nullopt;
+  }
+};
+/// `--celsius-per-count` and `--celsius-offset`. `otherwise` says what holds without them.
+void addScaleOptions(CLI::App& verb, ScaleArgs& args, const std::string& otherwise);
 
 /// Throws UsageError for a value that cannot be.
 void checkRadiometry(const RadiometricOverrides& overrides);

@@ -23,7 +23,11 @@ ThermalImage CelsiusDecoder::decode(const RawThermalImage& image, const std::str
                                     const RadiometricOverrides& overrides) {
   if (const auto* none = std::get_if<NotTemperature>(&image.rule))
     throw DataError(name + ": " + none->reason);
-  ThermalImage result{.width = image.width, .height = image.height};
+  ThermalImage result{.width = image.width,
+                      .height = image.height,
+                      .celsius = {},
+                      .air = nullptr,
+                      .calibrated_range = image.metadata.calibrated_range};
   if (const auto* parameters = std::get_if<RadiometricParameters>(&image.rule)) {
     overrides.validate();
     const RadiometricParameters wanted = overrides.applyTo(*parameters);
@@ -60,8 +64,8 @@ ThermalStatistics statisticsOf(const ThermalImage& image, const std::optional<Ca
     sum += celsius;
     low = std::min<double>(low, celsius);
     high = std::max<double>(high, celsius);
-    if (range && celsius < range->low) ++statistics.below_range;
-    if (range && celsius > range->high) ++statistics.above_range;
+    if (range && range->isBelow(celsius)) ++statistics.below_range;
+    if (range && range->isAbove(celsius)) ++statistics.above_range;
   }
   const std::size_t known = image.celsius.size() - statistics.unknown;
   if (known == 0) return statistics;

@@ -44,7 +44,7 @@ std::uint64_t frameSizeAt(ByteSource& source, std::uint64_t begin) {
 
 class FlirRecording final : public ThermalRecording {
  public:
-  explicit FlirRecording(ByteSource source) : source_(std::move(source)) {
+  FlirRecording(ByteSource source, VisibleInFrame visible) : source_(std::move(source)), visible_(visible) {
     for (auto begin = nextHeader(source_, 0); begin;) {
       const std::uint64_t left = source_.size() - *begin;
       FramePlace place{*begin, frameSizeAt(source_, *begin)};
@@ -78,7 +78,7 @@ class FlirRecording final : public ThermalRecording {
     const std::vector<std::byte> bytes = source_.read(place.begin, place.size);
     const std::string name =
         frames() == 1 ? source_.name() : source_.name() + ", frame " + std::to_string(frame);
-    RawThermalImage image = readFlirFrame(FlirFrame(bytes, name));
+    RawThermalImage image = readFlirFrame(FlirFrame(bytes, name), visible_);
     image.metadata.format = frames() == 1 ? "FLIR frame" : "FLIR recording";
     return image;
   }
@@ -96,14 +96,15 @@ class FlirRecording final : public ThermalRecording {
   }
 
   ByteSource source_;
+  VisibleInFrame visible_;
   std::vector<FramePlace> places_;
   int damaged_ = 0;  ///< frames that are left out
 };
 
 }  // namespace
 
-std::unique_ptr<ThermalRecording> openFlirRecording(ByteSource source) {
-  return std::make_unique<FlirRecording>(std::move(source));
+std::unique_ptr<ThermalRecording> openFlirRecording(ByteSource source, VisibleInFrame visible) {
+  return std::make_unique<FlirRecording>(std::move(source), visible);
 }
 
 }  // namespace thermovox

@@ -11,6 +11,7 @@ namespace thermovox {
 /// frame ends follows from its directory, and the next begins with the first header after that. A last frame
 /// whose counts are cut off, as in a recording that an empty battery ended, is left out. Throws DataError
 /// when there is no whole frame.
-[[nodiscard]] std::unique_ptr<ThermalRecording> openFlirRecording(ByteSource source);
+[[nodiscard]] std::unique_ptr<ThermalRecording> openFlirRecording(
+    ByteSource source, VisibleInFrame visible = VisibleInFrame::read);
 
 }  // namespace thermovox

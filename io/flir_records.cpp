@@ -182,7 +182,7 @@ CountsPicture flirCounts(const FlirFrame& frame) {
   return picture;
 }
 
-RawThermalImage readFlirFrame(const FlirFrame& frame) {
+RawThermalImage readFlirFrame(const FlirFrame& frame, VisibleInFrame visible) {
   CountsPicture picture = flirCounts(frame);
   RawThermalImage image{picture.width, picture.height, std::move(picture.counts)};
   FlirCameraInfo info =
@@ -199,6 +199,7 @@ RawThermalImage readFlirFrame(const FlirFrame& frame) {
   }
   image.metadata.picture_in_picture =
       pictureInPicture(bytesIfThere(frame, FlirRecordType::picture_in_picture));
+  if (visible == VisibleInFrame::leave_out) return image;
   if (const auto bytes = bytesIfThere(frame, FlirRecordType::embedded_image); bytes.size() > kPixelOffset)
     image.metadata.visible = embeddedPicture(bytes, frame.name() + ": the record of the visible picture");
   return image;

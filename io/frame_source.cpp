@@ -8,6 +8,7 @@
 
 #include "io/celsius_decoder.hpp"
 #include "io/input_file.hpp"
+#include "io/scale_warning.hpp"
 #include "io/stamped_files.hpp"
 #include "io/thermal_recording.hpp"
 #include "projection/error.hpp"
@@ -45,6 +46,7 @@ class ListedFrames final : public FrameSource {
         time_offset_(recording.time_offset),
         radiometry_(recording.radiometry),
         ambient_(recording.ambient),
+        warn_(recording.warn),
         camera_(camera) {}
 
   std::optional<ThermalFrame> next() override {
@@ -65,13 +67,25 @@ class ListedFrames final : public FrameSource {
   Duration period() const override { return period_; }
 
  private:
+  void warnOfScale(const RawThermalImage& raw, const std::string& name) {
+    if (!warn_) return;
+    const auto warning =
+        scaleWarning(raw, name, {"the rig", "celsius_per_count and celsius_offset of the rig"});
+    if (!warning) return;
+    warn_(*warning);
+    warn_ = nullptr;
+  }
+
   /// The image of a row. Rows that follow each other are often frames of one file, which stays open.
   ThermalImage read(const StampedFile& row) {
     if (!recording_ || row.file != opened_) {
-      recording_ = openThermalRecording(row.file, {.t_linear = camera_.t_linear, .named_by = row.place});
+      recording_ = openThermalRecording(
+          row.file,
+          {.t_linear = camera_.t_linear, .named_by = row.place, .visible = VisibleInFrame::leave_out});
       opened_ = row.file;
     }
     const RawThermalImage raw = recording_->read(row.page);
+    warnOfScale(raw, row.file.string());
     const auto* parameters = std::get_if<RadiometricParameters>(&raw.rule);
     if (parameters == nullptr) return decoder_.decode(raw, row.file.string(), radiometry_);
     RadiometricOverrides overrides = radiometry_.orElse({.atmosphere_temperature = ambient_});
@@ -88,6 +102,7 @@ class ListedFrames final : public FrameSource {
   Duration time_offset_;
   RadiometricOverrides radiometry_;
   std::optional<double> ambient_;
+  std::function<void(const std::string&)> warn_;  ///< empty once it has been heard
   ThermalCamera camera_;
   std::filesystem::path opened_;
   std::unique_ptr<ThermalRecording> recording_;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "projection/radiometric_overrides.hpp"
 #include "projection/rig.hpp"
@@ -19,10 +21,14 @@ struct FrameRecording {
   RadiometricOverrides radiometry;
   std::optional<double>
       ambient;  ///< of the air, C: instead of what radiometric files say, where there are any
+  /// Hears what the user should know of the frames' scale (scaleWarning), of the first frame it holds for;
+  /// may be empty.
+  std::function<void(const std::string&)> warn;
 };
 
 /// A source that reads the frames one at a time. It goes through the list once at the start, for the frames'
-/// period (the median of their distances), and holds one image at a time.
+/// period (the median of their distances), and holds one image at a time. What the counts of TIFFs are the
+/// camera says; where it does not, decideScale() does for each.
 /// Throws DataError naming file and line of what is wrong with the list, or when it lists no image; next()
 /// also for an image that is missing, damaged or not of the camera's size.
 [[nodiscard]] std::unique_ptr<FrameSource> readFrames(const FrameRecording& recording,

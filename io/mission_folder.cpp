@@ -116,7 +116,8 @@ class MissionOpener {
                                   .folder = folder_,
                                   .time_offset = file_.camera_time_offset,
                                   .radiometry = options_.radiometry.orElse(file_.radiometry),
-                                  .ambient = file_.ambient},
+                                  .ambient = file_.ambient,
+                                  .warn = options_.warn},
                                  *opened.mission.rig.thermal_camera);
     }
     if (file_.visible) opened.visible_list = wanted(*file_.visible, "visible");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +52,8 @@ struct MissionOptions {
   Duration max_gap = Trajectory::kDefaultMaxGap;
   /// Instead of what radiometric frames say, and their mission. A frame's distance is that of each point.
   RadiometricOverrides radiometry;
+  /// Hears, while the frames are read, what the user should know of them (FrameRecording); may be empty.
+  std::function<void(const std::string&)> warn;
 };
 
 /// Opens a mission: its folder or its mission.yaml. Throws ConfigError or DataError, naming the file and who

@@ -7,6 +7,7 @@
 
 #include "io/edge_drawing.hpp"
 #include "io/picture_canvas.hpp"
+#include "io/thermal_picture.hpp"
 
 namespace thermovox {
 namespace {
@@ -65,9 +66,10 @@ void drawChosen(cv::Mat& picture, const OverlayPoint& point, cv::Point2d place, 
   cv::circle(picture, place, 11, cv::Scalar(245, 245, 245), 2, cv::LINE_AA);
 }
 
-void drawScales(cv::Mat& picture, const TemperatureSpan& temperatures, Palette palette,
+/// In the footer, which begins at the row `footer`.
+void drawScales(cv::Mat& picture, int footer, const TemperatureScale& temperatures,
                 const TemperatureSpan& distances) {
-  const int top = picture.rows - kFooterPx + 22;
+  const int top = footer + 22;
   const int half = picture.cols / 2;
   const TextStyle style{.height_px = 13.0};
   const auto scale = [&](int left, const std::string& unit, const TemperatureScale& values) {
@@ -78,7 +80,7 @@ void drawScales(cv::Mat& picture, const TemperatureSpan& temperatures, Palette p
   scale(24,
         "surface, \xB0"
         "C",
-        {temperatures, palette});
+        temperatures);
   scale(half + 24, "distance, m", {distances, kDistancePalette});
 }
 
@@ -88,11 +90,12 @@ void writeOverlayPicture(const std::filesystem::path& path, const ThermalImage& 
                          std::span<const OverlayPoint> points, const OverlayOptions& options,
                          Existing existing) {
   const int zoom = std::max(1, options.width_px / std::max(1, image.width));
-  const TemperatureSpan span =
-      options.span ? *options.span : percentileSpan(image.celsius, 1.0, 99.9).value_or(TemperatureSpan{});
+  const TemperatureSpan span = options.span ? *options.span : calibratedSpan(image, 1.0, 99.9);
   const TemperatureSpan distances = distanceSpan(points);
   const cv::Rect image_area(0, kHeaderPx, image.width * zoom, image.height * zoom);
-  cv::Mat picture(image_area.height + kHeaderPx + kFooterPx, image_area.width, CV_8UC3,
+  const std::vector<LegendEntry> legend = uncalibratedLegend(image, options.palette);
+  const int above_legend = image_area.br().y + kFooterPx;
+  cv::Mat picture(above_legend + static_cast<int>(legend.size()) * kLegendRowPx, image_area.width, CV_8UC3,
                   cv::Scalar(32, 30, 28));
   cv::Mat painted = paintTemperatures(image, {span, options.palette}, zoom);
   if (options.visible) drawEdges(painted, *options.visible, zoom);
@@ -106,7 +109,8 @@ void writeOverlayPicture(const std::filesystem::path& path, const ThermalImage& 
     if (!point.label.empty()) drawChosen(picture, point, placeOf(point.pixel, zoom), image_area);
   }
   drawText(picture, options.title, cv::Point2d(24, 36), {.height_px = 18.0, .bold = true});
-  drawScales(picture, span, options.palette, distances);
+  drawScales(picture, image_area.br().y, {span, options.palette}, distances);
+  drawLegend(picture, {24, above_legend}, legend);
   writePicture(path, picture, existing);
 }
 

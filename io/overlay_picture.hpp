@@ -27,14 +27,15 @@ struct OverlayPoint {
 struct OverlayOptions {
   std::string title;
   Palette palette = Palette::inferno;
-  std::optional<TemperatureSpan> span;  ///< Celsius; default: the image's 1st to 99.9th percentile
+  std::optional<TemperatureSpan> span;  ///< Celsius; default: calibratedSpan(), 1st to 99.9th percentile
   std::shared_ptr<const RegisteredPicture> visible;  ///< whose edges are drawn into the image; may be null
   int width_px = 1280;  ///< of the picture; the image is enlarged by a whole factor to about it
 };
 
 /// Draws laser points on the thermal image they were coloured by: each a dot whose colour is its distance,
-/// and beside the chosen ones their temperature and distance; scales for both below. PNG, written whole or
-/// not at all. Throws DataError as AtomicFile does.
+/// and beside the chosen ones their temperature and distance; scales for both below, and
+/// what the colours of pixels outside the image's calibrated range mean. PNG, written whole or not at all.
+/// Throws DataError as AtomicFile does.
 void writeOverlayPicture(const std::filesystem::path& path, const ThermalImage& image,
                          std::span<const OverlayPoint> points, const OverlayOptions& options,
                          Existing existing);

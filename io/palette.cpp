@@ -78,6 +78,12 @@ std::span<const NamedPalette> namedPalettes() {
   return kNamed;
 }
 
+UncalibratedColours uncalibratedColours(Palette palette) {
+  const bool green = palette == Palette::viridis || palette == Palette::rainbow;
+  return green ? UncalibratedColours{{255, 0, 255}, {255, 240, 255}}
+               : UncalibratedColours{{0, 255, 255}, {0, 255, 0}};
+}
+
 std::optional<Palette> paletteOf(std::string_view name) {
   for (const NamedPalette& known : kNamed) {
     if (known.name == name) return known.palette;

@@ -38,6 +38,14 @@ struct Rgb {
 /// What has no temperature is drawn in this grey.
 inline constexpr Rgb kUnknownColour{128, 128, 128};
 
+/// In pictures with a palette, what lies outside the temperatures that the camera is calibrated for: colours
+/// that the palette itself does not come near.
+struct UncalibratedColours {
+  Rgb below;
+  Rgb above;
+};
+[[nodiscard]] UncalibratedColours uncalibratedColours(Palette palette);
+
 /// The palette of a name; nullopt for any other.
 [[nodiscard]] std::optional<Palette> paletteOf(std::string_view name);
 

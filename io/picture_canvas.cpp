@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -166,6 +167,32 @@ void drawTemperatureScale(cv::Mat& picture, const cv::Rect& area, const Temperat
   }
 }
 
+namespace {
+
+/// The colour of a pixel outside the calibrated range; nullopt for all others.
+std::optional<Rgb> markOf(double celsius, const CalibratedRange& range, const UncalibratedColours& colours) {
+  if (range.isBelow(celsius)) return colours.below;
+  return range.isAbove(celsius) ? std::optional(colours.above) : std::nullopt;
+}
+
+cv::Scalar bgr(const Rgb& colour) {
+  return {static_cast<double>(colour.b), static_cast<double>(colour.g), static_cast<double>(colour.r)};
+}
+
+/// Whole pixels, so that a single one is seen too.
+void markUncalibrated(cv::Mat& picture, const ThermalImage& image, Palette palette, int zoom) {
+  if (!image.calibrated_range) return;
+  const UncalibratedColours colours = uncalibratedColours(palette);
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const auto mark = markOf(image.at(u, v), *image.calibrated_range, colours);
+      if (mark) picture(cv::Rect(u * zoom, v * zoom, zoom, zoom)).setTo(bgr(*mark));
+    }
+  }
+}
+
+}  // namespace
+
 cv::Mat paintTemperatures(const ThermalImage& image, const TemperatureScale& scale, int zoom) {
   cv::Mat small(image.height, image.width, CV_8UC3);
   for (int v = 0; v < image.height; ++v) {
@@ -176,7 +203,36 @@ cv::Mat paintTemperatures(const ThermalImage& image, const TemperatureScale& sca
   }
   cv::Mat large;
   cv::resize(small, large, {}, zoom, zoom, zoom > 1 ? cv::INTER_CUBIC : cv::INTER_AREA);
+  markUncalibrated(large, image, scale.palette, zoom);
   return large;
+}
+
+std::vector<LegendEntry> uncalibratedLegend(const ThermalImage& image, Palette palette) {
+  std::vector<LegendEntry> legend;
+  if (!image.calibrated_range) return legend;
+  const CalibratedRange& range = *image.calibrated_range;
+  const UncalibratedColours colours = uncalibratedColours(palette);
+  const auto add = [&](bool there, const Rgb& colour, const char* side, double limit) {
+    if (!there) return;
+    legend.push_back(
+        {colour, std::string(side) + " the calibrated " + tickText(limit, 1.0) + " " + kDegreeSign + "C"});
+  };
+  const auto any = [&image](auto outside) {
+    return std::any_of(image.celsius.begin(), image.celsius.end(), outside);
+  };
+  add(any([&range](float celsius) { return range.isBelow(celsius); }), colours.below, "below", range.low);
+  add(any([&range](float celsius) { return range.isAbove(celsius); }), colours.above, "above", range.high);
+  return legend;
+}
+
+void drawLegend(cv::Mat& picture, cv::Point corner, std::span<const LegendEntry> entries) {
+  constexpr int patch = 14;  // px
+  for (const LegendEntry& entry : entries) {
+    const cv::Rect area(corner.x, corner.y + 3, patch, patch);
+    cv::rectangle(picture, area, bgr(entry.colour), cv::FILLED);
+    drawText(picture, entry.meaning, cv::Point2d(corner.x + patch + 10, corner.y + 15), {.height_px = 11.0});
+    corner.y += kLegendRowPx;
+  }
 }
 
 void writePicture(const std::filesystem::path& path, const cv::Mat& picture, Existing existing) {

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "io/atomic_file.hpp"
 #include "io/palette.hpp"
@@ -34,8 +36,22 @@ void drawTemperatureScale(cv::Mat& picture, const cv::Rect& area, const Temperat
 /// Temperatures at round steps within the span, about `wanted` of them.
 [[nodiscard]] std::vector<double> roundTicks(const TemperatureSpan& span, int wanted);
 
-/// The image by the scale's colours, 8-bit BGR, `zoom` times as large.
+/// The image by the scale's colours, 8-bit BGR, `zoom` times as large. Pixels outside the image's calibrated
+/// range have uncalibratedColours().
 [[nodiscard]] cv::Mat paintTemperatures(const ThermalImage& image, const TemperatureScale& scale, int zoom);
+
+/// A patch of colour and what it means.
+struct LegendEntry {
+  Rgb colour;
+  std::string meaning;
+};
+
+/// What paintTemperatures() marks in this image: below the calibrated range, above it, both or nothing.
+[[nodiscard]] std::vector<LegendEntry> uncalibratedLegend(const ThermalImage& image, Palette palette);
+
+inline constexpr int kLegendRowPx = 24;
+/// Draws the entries below one another, a row each, the first one's upper left corner at `corner`.
+void drawLegend(cv::Mat& picture, cv::Point corner, std::span<const LegendEntry> entries);
 
 /// Writes a picture (8-bit BGR or grey) as PNG, or as JPEG where the path ends on .jpg or .jpeg; whole or not
 /// at all. Throws DataError naming the file.

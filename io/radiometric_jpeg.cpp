@@ -107,7 +107,8 @@ std::string refusal(std::span<const JpegSegment> segments) {
 
 class RadiometricJpeg final : public ThermalRecording {
  public:
-  RadiometricJpeg(std::span<const std::byte> bytes, std::string name) : name_(std::move(name)) {
+  RadiometricJpeg(std::span<const std::byte> bytes, std::string name, VisibleInFrame visible)
+      : name_(std::move(name)), visible_(visible) {
     const std::vector<JpegSegment> segments = jpegSegments(bytes);
     frame_ = flirFrameOfJpeg(bytes, name_);
     exif_ = exifFacts(app1Of(segments, kExif));
@@ -119,7 +120,7 @@ class RadiometricJpeg final : public ThermalRecording {
   RawThermalImage read(int frame) override {
     if (frame != 0)
       throw DataError(name_ + ": has no frame " + std::to_string(frame) + ", expected 0: a JPEG has one");
-    RawThermalImage image = readFlirFrame(FlirFrame(frame_, name_));
+    RawThermalImage image = readFlirFrame(FlirFrame(frame_, name_), visible_);
     ThermalMetadata& metadata = image.metadata;
     metadata.format = "FLIR radiometric JPEG";
     metadata.make = exif_.make;
@@ -131,6 +132,7 @@ class RadiometricJpeg final : public ThermalRecording {
 
  private:
   std::string name_;
+  VisibleInFrame visible_;
   std::vector<std::byte> frame_;
   ExifFacts exif_;
   XmpFacts xmp_;
@@ -146,8 +148,8 @@ std::vector<std::byte> flirFrameOfJpeg(std::span<const std::byte> bytes, const s
 }
 
 std::unique_ptr<ThermalRecording> openRadiometricJpeg(std::span<const std::byte> bytes,
-                                                      const std::string& name) {
-  return std::make_unique<RadiometricJpeg>(bytes, name);
+                                                      const std::string& name, VisibleInFrame visible) {
+  return std::make_unique<RadiometricJpeg>(bytes, name, visible);
 }
 
 }  // namespace thermovox

@@ -17,7 +17,7 @@ namespace thermovox {
                                                      const std::string& name);
 
 /// A radiometric JPEG of FLIR, or of DJI's Zenmuse XT. Throws DataError as flirFrameOfJpeg() does.
-[[nodiscard]] std::unique_ptr<ThermalRecording> openRadiometricJpeg(std::span<const std::byte> bytes,
-                                                                    const std::string& name);
+[[nodiscard]] std::unique_ptr<ThermalRecording> openRadiometricJpeg(
+    std::span<const std::byte> bytes, const std::string& name, VisibleInFrame visible = VisibleInFrame::read);
 
 }  // namespace thermovox

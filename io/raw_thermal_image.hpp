@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "projection/radiometry.hpp"
+#include "projection/thermal_image.hpp"
 
 namespace thermovox {
 
@@ -30,14 +31,9 @@ struct EmbeddedPicture {
   std::vector<std::byte> bytes;
 };
 
-/// Temperatures that the camera is calibrated for, C.
-struct CalibratedRange {
-  double low = 0.0;
-  double high = 0.0;
-};
-
-/// What an XMP packet of a thermal camera says beside the scale; empty where it does not.
+/// What an XMP packet of a thermal camera says; empty where it does not.
 struct XmpFacts {
+  std::optional<double> t_linear_gain;                 ///< kelvin a count; 0: counts are no temperatures
   std::optional<double> yaw_deg, pitch_deg, roll_deg;  ///< of the camera
   std::optional<double> focal_length_mm;
   std::vector<double> principal_point_mm;      ///< x, y

@@ -122,13 +122,20 @@ Eigen::MatrixXd readIntrinsicsCovariance(const YamlMap& map, const Camera& camer
   return readCovariance(map, "covariance_intrinsics", kDistortion + camera.intrinsics().distortion_count);
 }
 
+/// Both numbers or none: one without the other says nothing.
+std::optional<TLinear> readScale(const YamlMap& map) {
+  if (!map.has("celsius_per_count") && !map.has("celsius_offset")) return std::nullopt;
+  const TLinear t_linear{map.number("celsius_per_count"), map.number("celsius_offset")};
+  if (!(t_linear.celsius_per_count > 0.0)) {
+    throw fault(map, "celsius_per_count",
+                "is " + exactText(t_linear.celsius_per_count) + ", expected more than 0");
+  }
+  return t_linear;
+}
+
 ThermalCamera readThermalCamera(const YamlMap& map) {
   ThermalCamera thermal{.camera = readCamera(map), .T_body_camera = readPose(map, "T_body_camera")};
-  thermal.t_linear = {map.number("celsius_per_count"), map.number("celsius_offset")};
-  if (!(thermal.t_linear.celsius_per_count > 0.0)) {
-    throw fault(map, "celsius_per_count",
-                "is " + exactText(thermal.t_linear.celsius_per_count) + ", expected more than 0");
-  }
+  thermal.t_linear = readScale(map);
   thermal.netd = notNegative(map, "netd", thermal.netd);
   thermal.bias_sigma = notNegative(map, "bias_sigma", thermal.bias_sigma);
   thermal.blur_px = notNegative(map, "blur", thermal.blur_px);

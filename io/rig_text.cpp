@@ -60,8 +60,10 @@ void writeThermalCamera(std::string& text, const ThermalCamera& thermal) {
   text += "thermal_camera:\n";
   Block block(text, "  ");
   writeIntrinsics(block, thermal.camera.intrinsics());
-  block.number("celsius_per_count", thermal.t_linear.celsius_per_count);
-  block.number("celsius_offset", thermal.t_linear.celsius_offset);
+  if (const auto& t_linear = thermal.t_linear) {
+    block.number("celsius_per_count", t_linear->celsius_per_count);
+    block.number("celsius_offset", t_linear->celsius_offset);
+  }
   block.pose("T_body_camera", thermal.T_body_camera);
   block.number("netd", thermal.netd);
   block.number("bias_sigma", thermal.bias_sigma);

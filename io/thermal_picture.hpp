@@ -11,6 +11,11 @@
 
 namespace thermovox {
 
+/// The span between two percentiles (0..100) of the temperatures that the camera is calibrated for: the
+/// others have colours of their own. Of all temperatures where there are none, and 0 to 1 C without any.
+[[nodiscard]] TemperatureSpan calibratedSpan(const ThermalImage& image, double low_percentile,
+                                             double high_percentile);
+
 struct ThermalPictureOptions {
   Palette palette = Palette::inferno;
   TemperatureSpan span;                              ///< Celsius
@@ -19,7 +24,8 @@ struct ThermalPictureOptions {
 };
 
 /// Draws a thermal image by a palette, small ones enlarged by a whole factor, with a scale in C below it.
-/// PNG, or JPEG by the path's ending; written whole or not at all. Throws DataError as AtomicFile does.
+/// Pixels outside the image's calibrated range have colours of their own, which the scale explains. PNG, or
+/// JPEG by the path's ending; written whole or not at all. Throws DataError as AtomicFile does.
 void writeThermalPicture(const std::filesystem::path& path, const ThermalImage& image,
                          const ThermalPictureOptions& options, Existing existing);
 

@@ -52,9 +52,9 @@ Kind kindOf(std::span<const std::byte> beginning, const std::string& name) {
 
 /// A JPEG that keeps the bytes of its file only while it is opened.
 std::unique_ptr<ThermalRecording> openJpegFile(const std::filesystem::path& file,
-                                               const std::string& named_by) {
-  const std::string bytes = readWhole(file, named_by, kLargestJpeg);
-  return openRadiometricJpeg(std::as_bytes(std::span(bytes)), file.string());
+                                               const RecordingOptions& options) {
+  const std::string bytes = readWhole(file, options.named_by, kLargestJpeg);
+  return openRadiometricJpeg(std::as_bytes(std::span(bytes)), file.string(), options.visible);
 }
 
 }  // namespace
@@ -66,11 +66,11 @@ std::unique_ptr<ThermalRecording> openThermalRecording(const std::filesystem::pa
     case Kind::tiff:
       return openThermalTiff(file, options);
     case Kind::jpeg:
-      return openJpegFile(file, options.named_by);
+      return openJpegFile(file, options);
     case Kind::flir:
       break;
   }
-  return openFlirRecording(std::move(source));
+  return openFlirRecording(std::move(source), options.visible);
 }
 
 std::unique_ptr<ThermalRecording> openThermalRecording(std::span<const std::byte> bytes,
@@ -80,11 +80,11 @@ std::unique_ptr<ThermalRecording> openThermalRecording(std::span<const std::byte
     case Kind::tiff:
       return openThermalTiff(bytes, name, options);
     case Kind::jpeg:
-      return openRadiometricJpeg(bytes, name);
+      return openRadiometricJpeg(bytes, name, options.visible);
     case Kind::flir:
       break;
   }
-  return openFlirRecording(ByteSource(bytes, name));
+  return openFlirRecording(ByteSource(bytes, name), options.visible);
 }
 
 }  // namespace thermovox

@@ -23,11 +23,15 @@ class ThermalRecording {
   [[nodiscard]] virtual RawThermalImage read(int frame) = 0;
 };
 
+/// What is done with the visible picture in a FLIR frame, which may be larger than all the rest of it.
+enum class VisibleInFrame { read, leave_out };
+
 struct RecordingOptions {
   /// The scale of a TIFF of counts, above all that the file itself says. Other formats have their own.
   std::optional<TLinear> t_linear;
   /// Who wants the file, for the message when it does not exist.
   std::string named_by;
+  VisibleInFrame visible = VisibleInFrame::read;
 };
 
 /// Opens a file, whose kind is told by its content, not its name: radiometric JPEG of FLIR (also of DJI's

@@ -11,7 +11,7 @@ namespace thermovox {
 
 /// All that may say what the counts of a TIFF are.
 struct TiffEvidence {
-  std::optional<TLinear> option;  ///< of the user
+  std::optional<TLinear> option;  ///< of the user, or of the rig of a mission
   std::string xmp;                ///< the packet
   std::string make, model;
 };

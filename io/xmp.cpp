@@ -110,7 +110,8 @@ std::optional<double> xmpNumber(std::string_view packet, std::string_view name, 
 }
 
 XmpFacts xmpFacts(std::string_view packet) {
-  return {.yaw_deg = xmpNumber(packet, "Yaw", "Camera"),
+  return {.t_linear_gain = xmpNumber(packet, "TlinearGain"),
+          .yaw_deg = xmpNumber(packet, "Yaw", "Camera"),
           .pitch_deg = xmpNumber(packet, "Pitch", "Camera"),
           .roll_deg = xmpNumber(packet, "Roll", "Camera"),
           .focal_length_mm = xmpNumber(packet, "PerspectiveFocalLength", "Camera"),

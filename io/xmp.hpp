@@ -18,7 +18,7 @@ namespace thermovox {
 [[nodiscard]] std::optional<double> xmpNumber(std::string_view packet, std::string_view name,
                                               std::string_view prefix = {});
 
-/// What a thermal camera writes beside its scale, in the property names of Pix4D's `Camera:`.
+/// What a thermal camera writes: its scale, and in the property names of Pix4D's `Camera:` how it stands.
 [[nodiscard]] XmpFacts xmpFacts(std::string_view packet);
 
 }  // namespace thermovox

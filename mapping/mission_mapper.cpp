@@ -261,8 +261,12 @@ std::optional<FrameColour> MissionMapper::counted(const std::variant<FrameColour
     uncoloured_.add(*reason);
     return std::nullopt;
   }
+  const FrameColour& found = std::get<FrameColour>(answer);
   ++report_.coloured;
-  return std::get<FrameColour>(answer);
+  const auto& range = found.view->frame.image->calibrated_range;
+  if (range && (range->isBelow(found.colour.celsius) || range->isAbove(found.colour.celsius)))
+    ++report_.outside_calibration;
+  return found;
 }
 
 MissionReport MissionMapper::finish() {

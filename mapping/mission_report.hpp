@@ -46,6 +46,9 @@ struct MissionReport {
   std::size_t readings = 0;  ///< sweeps: single ranges, scan lines or clouds
   std::size_t points = 0;
   std::size_t coloured = 0;
+  /// Of the coloured: with a temperature that their camera is not calibrated for. It is taken as it is, for
+  /// nothing says by how much it errs.
+  std::size_t outside_calibration = 0;
   std::map<std::string, std::size_t>
       uncoloured;  ///< by the reason's name; reasons without a return are left out
   std::map<std::string, std::size_t> dropped;  ///< likewise

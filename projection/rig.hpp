@@ -26,10 +26,10 @@ struct MountedCamera {
 struct ThermalCamera {
   Camera camera;
   Pose T_body_camera;
-  TLinear t_linear;
-  double netd = 0.05;       ///< noise of one pixel, one sigma, C
-  double bias_sigma = 0.0;  ///< error common to a frame, one sigma, C (a Duo R is good to 5)
-  double blur_px = 0.7;     ///< optics and pixel together, one sigma of a Gaussian, px
+  std::optional<TLinear> t_linear;  ///< of TIFFs of counts; without it they say themselves what they mean
+  double netd = 0.05;               ///< noise of one pixel, one sigma, C
+  double bias_sigma = 0.0;          ///< error common to a frame, one sigma, C (a Duo R is good to 5)
+  double blur_px = 0.7;             ///< optics and pixel together, one sigma of a Gaussian, px
   /// Of fx fy cx cy, then the distortion coefficients the camera was given; empty when the rig does not say.
   Eigen::MatrixXd covariance_intrinsics;
 };

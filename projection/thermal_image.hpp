@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,15 @@
 #include "projection/time.hpp"
 
 namespace thermovox {
+
+/// Temperatures that a camera is calibrated for, C.
+struct CalibratedRange {
+  double low = 0.0;
+  double high = 0.0;
+
+  [[nodiscard]] bool isBelow(double celsius) const { return celsius < low; }
+  [[nodiscard]] bool isAbove(double celsius) const { return celsius > high; }
+};
 
 /// Temperatures of a thermal camera, row by row, Celsius; NaN is "not known".
 struct ThermalImage {
@@ -18,6 +28,8 @@ struct ThermalImage {
   /// The air before the camera, of an image whose temperatures are those at distance 0 (a radiometric frame
   /// of a mission): what a point's own distance makes of them. Null where the temperatures stand as they are.
   std::shared_ptr<const AirPath> air;
+  /// What lies outside is kept as it is, and is to be marked or counted; empty where it is not known.
+  std::optional<CalibratedRange> calibrated_range;
 
   [[nodiscard]] float at(int u, int v) const {
     return celsius[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +

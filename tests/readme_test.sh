@@ -27,6 +27,17 @@ verbs() {
     fail "README.md describes the verbs ${documented//$'\n'/ }, the program offers ${offered//$'\n'/ }"
 }
 
+# Every option of every verb is named; what all verbs share (--help, --force, --json, ...) once.
+options() {
+  local verb option
+  for verb in $("${thermovox}" --help | sed -n '/^Subcommands:/,$p' | awk '/^  [a-z]/ { print $1 }'); do
+    while IFS= read -r option; do
+      [ "${option}" = --output ] && continue  # named as -o
+      grep -q -E -e "${option}([^a-z-]|\$)" README.md || fail "README.md: does not name ${option} of ${verb}"
+    done < <("${thermovox}" "${verb}" --help | grep -o -E '^  +(-[a-z], ?)?(-[a-z],)?--[a-z-]+' | grep -o -E -e '--[a-z-]+')
+  done
+}
+
 rig() {
   block README.md yaml 1 > "${work}/rig.yaml"
   "${thermovox}" info "${work}/rig.yaml" > /dev/null || fail "README.md: its rig.yaml is refused"
@@ -54,6 +65,7 @@ python() {
 
 rm -rf "${work}" && mkdir -p "${work}"
 verbs
+options
 rig
 links
 python

@@ -109,6 +109,7 @@ Rig makeRig(const SimulationOptions& options) {
   const Eigen::Quaterniond mount = rollPitchYaw(0.8, -0.6, -1.1);
   ThermalCamera thermal{Camera(makeIntrinsics(options.lens)),
                         {(mount * Eigen::Quaterniond(R_body_optical)).normalized(), {0.11, -0.04, -0.03}}};
+  thermal.t_linear = TLinear{};
   thermal.netd = options.netd;
   thermal.blur_px = options.blur_px;
   thermal.bias_sigma = options.errors.camera_bias_sigma;

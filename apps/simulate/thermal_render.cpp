@@ -120,7 +120,7 @@ std::vector<float> ThermalRenderer::render(const Pose& T_world_body) const {
 
 double ThermalRenderer::countOf(double celsius) const {
   if (radiometry_) return countsOfCelsius(celsius, *radiometry_);
-  const TLinear& t_linear = simulation_.rig().thermal_camera->t_linear;
+  const TLinear& t_linear = *simulation_.rig().thermal_camera->t_linear;
   return (celsius - t_linear.celsius_offset) / t_linear.celsius_per_count;
 }
 

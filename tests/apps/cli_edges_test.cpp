@@ -79,8 +79,8 @@ TEST(VisibleEdges, OfAnImageAreWrongUsageWithoutAllThatTheyNeed) {
   const TestFolder folder;
   for (const char* arguments :
        {"a.jpg x.png --visible v.jpg", "a.jpg x.png --visible v.jpg --rig r.yaml", "a.jpg x.png --range 3",
-        "a.jpg x.png --rig r.yaml", "a.jpg x.png --edges --visible v.jpg --rig r.yaml --range 3",
-        "a.jpg x.tiff --edges", "a.jpg x.tiff --visible v.jpg --rig r.yaml --range 3",
+        "a.jpg x.png --edges --visible v.jpg --rig r.yaml --range 3", "a.jpg x.tiff --edges",
+        "a.jpg x.tiff --visible v.jpg --rig r.yaml --range 3",
         "a.jpg x.png --visible v.jpg --rig r.yaml --range 0"})
     EXPECT_EQ(thermovox(folder.path(), std::string("image ") + arguments).code, 2) << arguments;
 }

@@ -2,6 +2,7 @@
 
 #include "io/celsius_decoder.hpp"
 #include "io/thermal_recording.hpp"
+#include "io/thermal_tiff_writer.hpp"
 #include "tests/apps/program.hpp"
 #include "tests/io/flir_file.hpp"
 #include "tests/io/tiff_writer.hpp"
@@ -102,6 +103,40 @@ TEST_F(ImageVerb, TakesTheUsersScaleAndWarnsOfAGuess) {
   expectRefused(folder.path(), "image c.tiff x.tiff --emissivity 0.9", {"c.tiff", "camera's own making"});
 }
 
+TEST_F(ImageVerb, TakesTheRigsScaleBeforeTheFilesButNotBeforeTheUsers) {
+  const auto rig = [&](const std::string& scale) {
+    folder.write("rig.yaml",
+                 "thermal_camera: {width: 4, height: 3, model: pinhole, fx: 4, fy: 4, cx: 1.5, cy: 1, " +
+                     scale + "T_body_camera: {translation: [0, 0, 0], quaternion_xyzw: [0, 0, 0, 1]}}\n");
+  };
+  const auto celsius = [&](const std::string& arguments, const std::string& warning) {
+    const Outcome outcome = run(arguments + " --force");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(warning));
+    EXPECT_EQ(outcome.err.empty(), warning.empty()) << outcome.err;
+    return openThermalRecording(folder / "x.tiff")->read(0).celsius[0];
+  };
+  rig("celsius_per_count: 0.02, celsius_offset: -500, ");
+  EXPECT_NEAR(celsius("c.tiff x.tiff --rig rig.yaml", ""), 100.0, 1e-4);
+  EXPECT_NEAR(celsius("c.tiff x.tiff --rig rig.yaml --celsius-per-count 0.01", ""), 26.85, 1e-4);
+  EXPECT_EQ(run("a.jpg y.tiff --rig rig.yaml").code, 0) << "a radiometric file has its own parameters";
+  ThermalTiffWriter said(folder / "d.tiff", Existing::refuse, {.t_linear_gain = 0.01});
+  said.add(4, 3, std::vector<std::uint16_t>(12, 30000));
+  said.commit();
+  EXPECT_NEAR(celsius("d.tiff x.tiff --rig rig.yaml", "d.tiff: its counts are 0.01 C a count"), 100.0, 1e-4);
+  rig("");
+  EXPECT_NEAR(celsius("c.tiff x.tiff --rig rig.yaml", "does not say what its counts mean"), 26.85, 1e-4);
+  EXPECT_NEAR(celsius("d.tiff x.tiff --rig rig.yaml", ""), 26.85, 1e-4);
+}
+
+TEST_F(ImageVerb, CountsWhatTheCameraIsNotCalibratedFor) {
+  const Outcome outcome = run("a.jpg x.tiff --reflected 500 --emissivity 0.6");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1200 pixels outside the calibrated -20 to 120 C"));
+  EXPECT_LT(openThermalRecording(folder / "x.tiff")->read(0).celsius[0], -20.0) << "and keeps it";
+  EXPECT_EQ(run("a.jpg x.png --reflected 500 --emissivity 0.6").code, 0);
+}
+
 TEST_F(ImageVerb, KeepsWhatIsThereUnlessForced) {
   folder.write("out.tiff", "mine");
   expectRefused(folder.path(), "image a.jpg out.tiff", {"out.tiff: exists already", "--force"});
@@ -111,11 +146,11 @@ TEST_F(ImageVerb, KeepsWhatIsThereUnlessForced) {
 TEST_F(ImageVerb, RefusesWhatCannotBeMeant) {
   for (const char* arguments :
        {"a.jpg x.bmp", "a.jpg x.png --counts", "b.seq x.png --all", "b.seq x.tiff --all --frame 1",
-        "a.jpg x.tiff --counts --emissivity 0.9", "a.jpg x.png --span 30 20",
-        "a.jpg x.png --percentile 50 10", "a.jpg x.png --span 1 2 --percentile 1 99",
-        "a.jpg x.tiff --emissivity 0", "a.jpg x.tiff --humidity 55", "a.jpg x.tiff --distance -1",
-        "a.jpg x.png --palette pink", "a.jpg x.tiff --atmosphere-model third",
-        "c.tiff x.tiff --celsius-offset 0", "a.jpg"}) {
+        "a.jpg x.tiff --counts --emissivity 0.9", "c.tiff x.tiff --counts --rig rig.yaml",
+        "a.jpg x.png --span 30 20", "a.jpg x.png --percentile 50 10",
+        "a.jpg x.png --span 1 2 --percentile 1 99", "a.jpg x.tiff --emissivity 0",
+        "a.jpg x.tiff --humidity 55", "a.jpg x.tiff --distance -1", "a.jpg x.png --palette pink",
+        "a.jpg x.tiff --atmosphere-model third", "c.tiff x.tiff --celsius-offset 0", "a.jpg"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
@@ -166,6 +201,24 @@ TEST_F(ImageVerb, AgreesWithInfo) {
   EXPECT_EQ(corner.at("xy"), nlohmann::json({39, 29}));
   EXPECT_EQ(corner.at("counts").get<int>(), frame(1).counts.back());
   EXPECT_NEAR(corner.at("celsius").get<double>(), image.celsius.back(), 1e-4);
+}
+
+TEST_F(ImageVerb, TakesWhatTheUserKnowsBetterInInfoToo) {
+  const auto info = [&](const std::string& arguments) {
+    return thermovox(folder.path(), "info " + arguments + " --json");
+  };
+  const nlohmann::json told = info("a.jpg --emissivity 0.7 --distance 30 --reflected -40").json();
+  EXPECT_NEAR(told.at("parameters").at("emissivity").get<double>(), 0.7, 1e-9);
+  EXPECT_NEAR(told.at("pixels").at("top_left").at("celsius").get<double>(),
+              written("a.jpg --emissivity 0.7 --distance 30 --reflected -40").celsius[0], 1e-4);
+  const nlohmann::json scaled = info("c.tiff --celsius-per-count 0.02 --celsius-offset -500").json();
+  EXPECT_EQ(scaled.at("scale").at("from"), "the user");
+  EXPECT_NEAR(scaled.at("mean").get<double>(), 100.0, 1e-4);
+  expectRefused(folder.path(), "info c.tiff --emissivity 0.7", {"c.tiff: has no radiometric parameters"});
+  expectRefused(folder.path(), "info a.jpg --celsius-per-count 0.1", {"a.jpg: its pixels have a meaning"});
+  folder.write("rig.yaml", "{}");
+  EXPECT_EQ(info("rig.yaml --emissivity 0.7").code, 2);
+  EXPECT_EQ(info("a.jpg --emissivity 7").code, 2);
 }
 
 TEST(ImageVerbOnRecordings, RefusesEveryNegativeFileInOneSentence) {

@@ -233,6 +233,26 @@ TEST(MapVerb, WarnsOfACameraWithoutImages) {
                                           HasSubstr("hall/rig.yaml")));
 }
 
+TEST(MapVerb, WarnsOnceOfAScaleThatTheRigAndTheImagesLeaveOpenOrContradict) {
+  const TestFolder folder;
+  flyMission(folder, "hall");
+  const std::string rig = bytesOf(folder / "hall" / "rig.yaml");
+  const auto warned = [&](const std::string& arguments) {
+    const Outcome outcome = thermovox(folder.path(), arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    return outcome.err;
+  };
+  replaceIn(folder / "hall/rig.yaml", "  celsius_per_count: 0.01\n  celsius_offset: -273.15\n", "");
+  for (const char* arguments :
+       {"map hall", "map hall --station two.tvx --two-pass", "overlay hall pictures"}) {
+    EXPECT_THAT(warned(arguments),
+                testing::AllOf(HasSubstr("tiff: does not say what its counts mean"),
+                               HasSubstr("celsius_per_count and celsius_offset of the rig")));
+  }
+  EXPECT_THAT(thermovox(folder.path(), "map hall --station again.tvx --json").out, testing::StartsWith("{"));
+}
+
 TEST(MapVerb, NotOneColourWhereColoursWereToBeExpectedIsAnErrorWithItsLikelyCause) {
   const TestFolder folder;
   flyMission(folder, "hall");

@@ -152,7 +152,7 @@ TEST(SimulateMission, OpensAsAMissionWithEveryReadingAndFrame) {
       const std::optional<ThermalFrame> read = opened.frames->next();
       ASSERT_TRUE(read);
       EXPECT_EQ(read->stamp, simulation.frameStamp(frame));
-      const float first = simulation.rig().thermal_camera->t_linear.celsius(renderer.counts(frame)[0]);
+      const float first = simulation.rig().thermal_camera->t_linear->celsius(renderer.counts(frame)[0]);
       EXPECT_EQ(read->image->at(0, 0), first);
     }
     EXPECT_FALSE(opened.frames->next());

@@ -59,7 +59,7 @@ class TrueColouring {
   explicit TrueColouring(const Simulation& simulation)
       : simulation_(simulation), camera_(simulation.rig().thermal_camera->camera) {
     const ThermalRenderer renderer(simulation);
-    const TLinear& t_linear = simulation.rig().thermal_camera->t_linear;
+    const TLinear& t_linear = *simulation.rig().thermal_camera->t_linear;
     for (std::size_t frame = 0; frame < simulation.frameCount(); ++frame) {
       std::vector<double>& image = frames_.emplace_back();
       for (const std::uint16_t count : renderer.counts(frame)) image.push_back(t_linear.celsius(count));
@@ -237,7 +237,7 @@ TEST(ThermalRenderer, FlatWallShowsItsTemperatureWithTheDeclaredNoise) {
   const std::vector<std::uint16_t> counts = renderer.counts(1);
   std::vector<double> noise;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    noise.push_back(simulation.rig().thermal_camera->t_linear.celsius(counts[i]) - clean[i]);
+    noise.push_back(simulation.rig().thermal_camera->t_linear->celsius(counts[i]) - clean[i]);
   }
   EXPECT_NEAR(summarise(noise).rms, 0.08, 0.002);
 }

@@ -99,6 +99,11 @@ TEST(ReadFlirFrame, ReadsCameraAndSurroundings) {
   EXPECT_EQ(image.metadata.picture_in_picture.value().y2, 92);
   EXPECT_EQ(image.metadata.visible.value().bytes.size(), 4U);
   EXPECT_EQ(image.metadata.visible.value().width, 4);
+  const std::string bytes = flirFrame(file);
+  const RawThermalImage without =
+      readFlirFrame(FlirFrame(std::as_bytes(std::span(bytes)), "frame.fff"), VisibleInFrame::leave_out);
+  EXPECT_FALSE(without.metadata.visible);
+  EXPECT_EQ(without.counts, image.counts);
 }
 
 TEST(ReadFlirFrame, GivesTheTemperaturesOfTheFormula) {

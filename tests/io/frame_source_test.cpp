@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "io/thermal_recording.hpp"
+#include "io/thermal_tiff_writer.hpp"
 #include "projection/error.hpp"
 #include "tests/io/flir_file.hpp"
 #include "tests/io/tiff_writer.hpp"
@@ -21,7 +23,7 @@ constexpr int kHeight = 15;
 ThermalCamera smallCamera() {
   Intrinsics intrinsics{.width_px = kWidth, .height_px = kHeight};
   intrinsics.parameters[kFx] = intrinsics.parameters[kFy] = 20.0;
-  return {.camera = Camera(intrinsics), .t_linear = {0.1, 0.0}};
+  return {.camera = Camera(intrinsics), .t_linear = TLinear{0.1, 0.0}};
 }
 
 FlirFile fileOf(std::uint64_t seed) {
@@ -57,6 +59,70 @@ TEST(ReadFrames, TakesEveryFormatOfThermalImages) {
   EXPECT_EQ(counts->image->air, nullptr) << "a linear camera has the air in its counts";
   EXPECT_EQ(frames->next()->image->at(7, 5), 21.5F);
   EXPECT_FALSE(frames->next());
+}
+
+TEST(OpenThermalRecording, LeavesTheVisiblePictureOutOnRequestInEveryFormatThatHasOne) {
+  const test::TestFolder folder;
+  FlirFile file = fileOf(1);
+  file.visible_jpeg = "\xFF\xD8\xFF\xD9";
+  folder.write("a.jpg", test::radiometricJpeg(flirFrame(file)));
+  folder.write("b.seq", flirFrame(file) + flirFrame(file));
+  for (const char* name : {"a.jpg", "b.seq"}) {
+    const auto with = openThermalRecording(folder / name)->read(0);
+    const auto without =
+        openThermalRecording(folder / name,
+                             {.t_linear = {}, .named_by = {}, .visible = VisibleInFrame::leave_out})
+            ->read(0);
+    EXPECT_TRUE(with.metadata.visible) << name;
+    EXPECT_FALSE(without.metadata.visible) << name;
+    EXPECT_EQ(with.counts, without.counts) << name;
+  }
+}
+
+/// Frames of 30000 counts from TIFFs with these gains (none: the file does not say), as they are read.
+struct ReadScales {
+  std::vector<float> celsius;
+  std::vector<std::string> warnings;
+};
+
+ReadScales scalesRead(const std::vector<std::optional<double>>& gains, std::optional<TLinear> of_rig) {
+  const test::TestFolder folder;
+  std::string list;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const std::string name = std::to_string(i) + ".tiff";
+    ThermalTiffWriter writer(folder / name, Existing::refuse, {.t_linear_gain = gains[i]});
+    writer.add(kWidth, kHeight, std::vector<std::uint16_t>(kWidth * kHeight, 30000));
+    writer.commit();
+    list += std::to_string(i) + "," + name + "\n";
+  }
+  ThermalCamera camera = smallCamera();
+  camera.t_linear = of_rig;
+  ReadScales read;
+  const auto frames = readFrames({.list = folder.write("thermal.csv", list),
+                                  .folder = folder.path(),
+                                  .warn = [&](const std::string& told) { read.warnings.push_back(told); }},
+                                 camera);
+  while (const auto frame = frames->next()) read.celsius.push_back(frame->image->at(3, 2));
+  return read;
+}
+
+TEST(ReadFrames, TakesTheRigsScaleBeforeTheFilesAndTellsAContradictionOnce) {
+  const ReadScales read = scalesRead({0.02, 0.01, 0.01, std::nullopt}, TLinear{0.02, kAbsoluteZero});
+  EXPECT_THAT(read.celsius, testing::Each(testing::FloatNear(326.85F, 1e-3F)));
+  ASSERT_EQ(read.warnings.size(), 1U);
+  EXPECT_THAT(read.warnings[0], AllOf(HasSubstr("1.tiff"), HasSubstr("0.01 C"), HasSubstr("0.02 C")));
+}
+
+TEST(ReadFrames, LeavesTheScaleToTheFilesWhereTheRigDoesNotSayAndTellsAGuessOnce) {
+  const ReadScales said = scalesRead({0.02, 0.01}, std::nullopt);
+  EXPECT_THAT(said.celsius,
+              testing::ElementsAre(testing::FloatNear(326.85F, 1e-3F), testing::FloatNear(26.85F, 1e-3F)));
+  EXPECT_TRUE(said.warnings.empty());
+  const ReadScales guessed = scalesRead({0.02, std::nullopt, std::nullopt}, std::nullopt);
+  EXPECT_THAT(guessed.celsius[2], testing::FloatNear(26.85F, 1e-3F));
+  ASSERT_EQ(guessed.warnings.size(), 1U);
+  EXPECT_THAT(guessed.warnings[0], AllOf(HasSubstr("1.tiff"), HasSubstr("celsius_per_count")));
+  EXPECT_THROW(static_cast<void>(scalesRead({0.0}, std::nullopt)), DataError) << "no temperatures";
 }
 
 TEST(ReadFrames, NamesTheFileAndTheFrameThatCannotBeUsed) {

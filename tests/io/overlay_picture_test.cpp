@@ -52,6 +52,17 @@ cv::Rect imageArea(const cv::Mat& picture) {
   return {0, top, picture.cols, bottom + 1 - top};
 }
 
+TEST(OverlayPicture, MarksWhatTheCameraIsNotCalibratedFor) {
+  ThermalImage image = evenImage();
+  image.celsius[10 * kWidth + 30] = 300.0F;
+  image.calibrated_range = CalibratedRange{-20.0, 120.0};
+  const cv::Mat picture = draw({}, image);
+  const int rows = draw({}).rows;
+  EXPECT_GT(picture.rows, rows) << "and explains it";
+  const Rgb above = uncalibratedColours(Palette::inferno).above;
+  EXPECT_EQ(picture.at<cv::Vec3b>(56 + 10 * kZoom + 3, 30 * kZoom + 3), cv::Vec3b(above.b, above.g, above.r));
+}
+
 TEST(OverlayPicture, ShowsTheImageEnlargedByAWholeFactor) {
   const cv::Mat picture = draw({});
   ASSERT_EQ(picture.cols, kWidth * kZoom);

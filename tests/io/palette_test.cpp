@@ -28,6 +28,21 @@ TEST(Palette, EndsHoldBeyondTheSpanAndNanIsGrey) {
   }
 }
 
+TEST(Palette, MarksOfUncalibratedTemperaturesAreLikeNoColourOfIt) {
+  const auto distance = [](const Rgb& a, const Rgb& b) {
+    return std::hypot(a.r - b.r, a.g - b.g, a.b - b.b);
+  };
+  for (const Palette palette : kPalettes) {
+    const auto [below, above] = uncalibratedColours(palette);
+    constexpr double kClearly = 60.0;  // of 441 from black to white
+    EXPECT_GT(distance(below, above), kClearly);
+    for (const Rgb& mark : {below, above}) {
+      EXPECT_GT(distance(mark, kUnknownColour), kClearly);
+      for (int i = 0; i <= 1000; ++i) ASSERT_GT(distance(mark, colourAt(palette, i / 1000.0)), kClearly) << i;
+    }
+  }
+}
+
 TEST(Palette, ColoursChangeInSmallSteps) {
   for (const Palette palette : kPalettes) {
     for (int i = 0; i < 1000; ++i) {

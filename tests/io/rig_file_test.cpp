@@ -92,6 +92,20 @@ TEST(ReadRig, ReadsCameraAndLaser) {
   EXPECT_TRUE(rig.lasers[0].covariance_body_laser.isZero(0.0));
 }
 
+TEST(ReadRig, ReadsTheScaleOfTheCountsOrLeavesItToTheImages) {
+  const Rig rig = parse(text());
+  ASSERT_TRUE(rig.thermal_camera->t_linear);
+  EXPECT_EQ(rig.thermal_camera->t_linear->celsius_per_count, 0.01);
+  EXPECT_EQ(rig.thermal_camera->t_linear->celsius_offset, -273.15);
+  const std::string per_count = "  celsius_per_count: 0.01\n", offset = "  celsius_offset: -273.15\n";
+  const Rig silent = parse(with(per_count + offset, ""));
+  EXPECT_FALSE(silent.thermal_camera->t_linear);
+  EXPECT_FALSE(parse(rigText(silent)).thermal_camera->t_linear);
+  EXPECT_EQ(complaintAbout(with(offset, "")), "rig.yaml, thermal_camera.celsius_offset: is missing");
+  EXPECT_EQ(complaintAbout(with(per_count, "")), "rig.yaml, thermal_camera.celsius_per_count: is missing");
+  EXPECT_THAT(complaintAbout(with(per_count, "  celsius_per_count: 0\n")), HasSubstr("expected more than 0"));
+}
+
 TEST(ReadRig, ReadsLasersAsAList) {
   const Rig rig = parse(R"(
 laser:

@@ -55,6 +55,43 @@ TEST(WriteThermalPicture, HasAScaleBelow) {
   expectColour(picture, {picture.cols - 45, row}, colourAt(Palette::grey, 1.0), 6);
 }
 
+TEST(WriteThermalPicture, MarksAndExplainsWhatTheCameraIsNotCalibratedFor) {
+  const test::TestFolder folder;
+  ThermalImage image = twoHalves();
+  image.celsius[80 * 30 + 20] = 130.0F;  // single pixels, twelve times as large
+  image.celsius[80 * 30 + 60] = -40.0F;
+  const auto drawn = [&] {
+    writeThermalPicture(folder / "p.png", image, {Palette::grey, {0.0, 40.0}, "a note"}, Existing::replace);
+    return cv::imread((folder / "p.png").string());
+  };
+  const cv::Mat plain = drawn();
+  image.calibrated_range = CalibratedRange{-20.0, 120.0};
+  const cv::Mat marked = drawn();
+  const auto [below, above] = uncalibratedColours(Palette::grey);
+  for (const int inside : {0, 6, 11}) {
+    expectColour(marked, {12 * 20 + inside, 12 * 30 + inside}, above, 0);
+    expectColour(marked, {12 * 60 + inside, 12 * 30 + inside}, below, 0);
+  }
+  expectColour(marked, {12 * 20, 500}, colourAt(Palette::grey, 0.75), 0);
+  ASSERT_GT(marked.rows, plain.rows) << "a row of the legend for each";
+  const int legend = plain.rows - 30;
+  expectColour(marked, {26, legend + 10}, below, 0);
+  expectColour(marked, {26, legend + 10 + (marked.rows - plain.rows) / 2}, above, 0);
+  image.celsius.assign(image.celsius.size(), 20.0F);
+  EXPECT_EQ(drawn().rows, plain.rows) << "nothing to explain";
+}
+
+TEST(CalibratedSpan, LeavesWhatTheCameraIsNotCalibratedForOutUnlessThereIsNothingElse) {
+  ThermalImage image = twoHalves();
+  for (std::size_t i = 0; i < 500; ++i) image.celsius[i] = -60.0F;
+  EXPECT_EQ(calibratedSpan(image, 0.0, 100.0), (TemperatureSpan{-60.0, 30.0}));
+  image.calibrated_range = CalibratedRange{-20.0, 120.0};
+  EXPECT_EQ(calibratedSpan(image, 0.0, 100.0), (TemperatureSpan{10.0, 30.0}));
+  image.calibrated_range = CalibratedRange{200.0, 300.0};
+  EXPECT_EQ(calibratedSpan(image, 0.0, 100.0), (TemperatureSpan{-60.0, 30.0}));
+  EXPECT_EQ(calibratedSpan({.width = 1, .height = 1, .celsius = {NAN}}, 0.0, 100.0), TemperatureSpan{});
+}
+
 TEST(WriteThermalPicture, TakesImagesOfAnySize) {
   const test::TestFolder folder;
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 2000), std::pair(1024, 3)}) {

@@ -53,6 +53,26 @@ TEST(MissionMapper, AFrameWithoutAPoseIsCountedAndColoursNothing) {
   EXPECT_EQ(result.report.uncoloured, (std::map<std::string, std::size_t>{{"no_pose_for_frame", 1}}));
 }
 
+TEST(MissionMapper, TemperaturesThatTheCameraIsNotCalibratedForAreTakenAndCounted) {
+  const auto framed = [](double stamp, double celsius) {
+    ThermalFrame frame = frameAt(stamp, celsius);
+    ThermalImage image = *frame.image;
+    image.calibrated_range = CalibratedRange{-20.0, 120.0};
+    frame.image = std::make_shared<const ThermalImage>(std::move(image));
+    return frame;
+  };
+  const Result result =
+      mapAll(missionOf(poses(0.0, 0.0)), {readingAt(13.0, 2), readingAt(14.0, 3), readingAt(15.0, 4)},
+             {framed(13.0, 130.0), framed(14.0, 20.0), framed(15.0, -30.0)});
+  EXPECT_EQ(result.report.coloured, 9U);
+  EXPECT_EQ(result.report.outside_calibration, 6U);
+  EXPECT_FLOAT_EQ(result.points[0].colour->celsius, 130.0F);
+  EXPECT_EQ(mapAll(missionOf(poses(0.0, 0.0)), {readingAt(13.0)}, {frameAt(13.0, 900.0)})
+                .report.outside_calibration,
+            0U)
+      << "of a camera that does not say";
+}
+
 TEST(MissionMapper, TheCameraStandsWhereItWasWhenTheFrameWasTaken) {
   const Mission mission = missionOf(poses(2.0, 0.1));
   const ThermalCamera& camera = *mission.rig.thermal_camera;
