@@ -7,6 +7,7 @@
 #include "mapping/hot_clusters.hpp"
 #include "mapping/local_plane.hpp"
 #include "mapping/peak_model.hpp"
+#include "mapping/surface_height.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -20,6 +21,8 @@ constexpr double kBand = 2.0;                 // cells off its plane that a peak
 constexpr double kMostBlur = 0.75;            // of the variance of a peak's shape that blur may make up
 constexpr double kInterpolation = 1.0 / 6.0;  // variance of linear interpolation, px^2
 constexpr double kBlurSigma = 0.2;            // of the blur itself, as a share
+constexpr double kLeastModelError = 0.01;     // of a peak's rise
+constexpr double kLeastSurfaceSigma = 5e-4;   // metres
 constexpr double kExplained = 0.3;            // of its excess that a piece may differ from a model by
 
 /// A cluster on the way to a hot spot.
@@ -115,19 +118,45 @@ class Detection {
   [[nodiscard]] std::optional<PeakFit> fitted(const Candidate& candidate) const {
     const double rise = candidate.hottest - candidate.reference.celsius;
     const double width = std::clamp(std::sqrt(candidate.spread2 / 2.0) * 1.2, 0.6 * layer_.resolution(), 1.0);
+    const std::vector<PeakSample> samples = samplesAround(candidate, std::clamp(4.0 * width, 0.25, 1.5));
+    if (samples.size() < 6 || !(rise > 0.0)) return std::nullopt;
+    PeakPrior prior{.guess = {candidate.centroid, rise, width, candidate.reference.celsius},
+                    .normal = candidate.normal};
+    prior.reference_sigma = std::max(candidate.reference.sigma, 0.5);
+    const std::optional<PeakFit> fit = fitPeak(samples, prior);
+    if (!fit) return fit;
+    // Where the samples follow the model more closely than was feared, what they differ by is its error.
+    prior.model_error = std::max(prior.model_error * std::min(fit->misfit, 1.0), kLeastModelError);
+    putOnSurface(samples, fit->model, prior);
+    const std::optional<PeakFit> closer = fitPeak(samples, prior);
+    return closer ? closer : fit;
+  }
+
+  [[nodiscard]] std::vector<PeakSample> samplesAround(const Candidate& candidate, double radius) const {
     std::vector<PeakSample> samples;
-    for (const std::uint32_t i : layer_.within(candidate.centroid, std::clamp(4.0 * width, 0.25, 1.5))) {
+    for (const std::uint32_t i : layer_.within(candidate.centroid, radius)) {
       const SurfaceSample& sample = layer_[i];
       const double off = candidate.normal.dot(sample.p_world - candidate.centroid);
       const bool own = std::binary_search(candidate.cells.begin(), candidate.cells.end(), i);
       if (!own && (hot_[i] || std::abs(off) > kBand * layer_.resolution())) continue;
       samples.push_back({sample.p_world, sample.celsius, sample.sigma});
     }
-    if (samples.size() < 6 || !(rise > 0.0)) return std::nullopt;
-    PeakPrior prior{.guess = {candidate.centroid, rise, width, candidate.reference.celsius},
-                    .normal = candidate.normal};
-    prior.reference_sigma = std::max(candidate.reference.sigma, 0.5);
-    return fitPeak(samples, prior);
+    return samples;
+  }
+
+  /// The peak lies on the surface, which the samples know better than their temperatures do.
+  void putOnSurface(const std::vector<PeakSample>& samples, const PeakModel& model, PeakPrior& prior) const {
+    prior.guess.centre = model.centre;
+    if (prior.normal.isZero()) return;
+    std::vector<Eigen::Vector3d> near;
+    const double radius = std::max(2.0 * model.width, 3.0 * layer_.resolution());
+    for (const PeakSample& sample : samples) {
+      if ((sample.p_world - model.centre).norm() < radius) near.push_back(sample.p_world);
+    }
+    if (const auto height = surfaceHeight(near, model.centre, prior.normal)) {
+      prior.guess.centre += height->height * prior.normal;
+      prior.surface_sigma = std::max(height->sigma, kLeastSurfaceSigma);
+    }
   }
 
   /// Takes the weaker clusters that the model explains.
