@@ -9,7 +9,7 @@ namespace thermovox {
 namespace {
 
 constexpr std::size_t kEach = 64;  // readings of no more returns are taken wholly
-constexpr std::size_t kStep = 8;   // of longer ones every so many-th
+constexpr std::size_t kStep = 32;   // of longer ones every so many-th
 constexpr double kLeastCosine =
     0.3;  // of the angle between ray and normal: beyond 73 degrees nothing is located
 constexpr std::int32_t kReach = 2;  // cubes

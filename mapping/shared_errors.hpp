@@ -37,7 +37,7 @@ class SharedMotions {
   /// The mission must outlive the object.
   explicit SharedMotions(const Mission& mission) : mission_(mission) {}
 
-  /// Takes every eighth return of a reading, and of short ones each.
+  /// Takes every 32nd return of a reading, and of short ones each.
   void add(std::span<const PlacedReturn> reading, std::size_t laser);
   /// By cube, then laser.
   [[nodiscard]] std::vector<SharedMotion> means() const;
