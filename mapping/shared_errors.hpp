@@ -55,6 +55,10 @@ class SharedMotions {
   std::map<std::tuple<BlockKey, std::uint32_t>, Sums> sums_;
 };
 
+/// The same after a rigid motion of the world: T_world_map takes the old coordinates to the new ones. A cube
+/// goes where its centre goes; those that meet are averaged.
+[[nodiscard]] std::vector<SharedMotion> moved(std::span<const SharedMotion> motions, const Pose& T_world_map);
+
 /// What a mission declares of its errors besides its rig's.
 struct PoseSigmas {
   double rotation = 0.0;     ///< one sigma an axis, radians
