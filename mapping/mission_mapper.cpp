@@ -80,7 +80,7 @@ void MissionMapper::Options::validate() const {
 }
 
 MissionMapper::MissionMapper(const Mission& mission, ThermalMap& map, const Options& options, Sink sink)
-    : mission_(mission), map_(map), options_(options), sink_(std::move(sink)) {
+    : mission_(mission), map_(map), options_(options), sink_(std::move(sink)), motions_(mission) {
   options_.validate();
   if (options_.frame_limit == Duration::zero()) options_.frame_limit = kFrameSlack;
   options_.lookahead = std::max(options_.lookahead, options_.frame_limit);
@@ -132,6 +132,7 @@ void MissionMapper::add(Reading reading) {
     waiting.first_stamp = std::min(waiting.first_stamp, laser_return.stamp);
     waiting.last_stamp = std::max(waiting.last_stamp, laser_return.stamp);
   }
+  motions_.add(waiting.returns, reading.laser);
   readings_.push_back(std::move(waiting));
 }
 
@@ -280,6 +281,7 @@ MissionReport MissionMapper::finish() {
                                      dropped_.of(Dropped::trajectory_gap);
     throw DataError(whyNoPoints(report_, without_pose));
   }
+  report_.shared_motions = motions_.means();
   return std::move(report_);
 }
 

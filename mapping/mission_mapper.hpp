@@ -11,6 +11,7 @@
 #include "mapping/frame_window.hpp"
 #include "mapping/mission_report.hpp"
 #include "mapping/scene_view.hpp"
+#include "mapping/shared_errors.hpp"
 #include "mapping/thermal_map.hpp"
 #include "projection/depth_sectors.hpp"
 #include "projection/mission.hpp"
@@ -101,6 +102,7 @@ class MissionMapper {
   Options options_;
   Sink sink_;
   MissionReport report_;
+  SharedMotions motions_;
   DroppedCounts dropped_;
   UncolouredCounts uncoloured_;
   std::optional<FrameWindow> frames_;  ///< none without a thermal camera

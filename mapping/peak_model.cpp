@@ -1,0 +1,124 @@
+#include "mapping/peak_model.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/NonLinearOptimization>
+
+namespace thermovox {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+constexpr int kPriors = 5;  // rows of what is known before
+
+PeakModel modelOf(const Eigen::VectorXd& x) {
+  return {x.head<3>(), std::exp(x[3]), std::exp(x[4]), x[5]};
+}
+
+/// A residual whose square is the soft L1 loss 2 (sqrt(1 + r^2) - 1), with its derivative.
+struct SoftResidual {
+  double value, slope;
+};
+SoftResidual soft(double r) {
+  const double root = std::sqrt(1.0 + r * r);
+  const double value = std::copysign(std::sqrt(2.0 * (root - 1.0)), r);
+  return {value, std::abs(r) < 1e-9 ? 1.0 : r / (root * value)};
+}
+
+/// For Eigen's solver: residuals in sigmas, and their derivatives by centre, ln rise, ln width, reference.
+struct PeakProblem {
+  std::span<const PeakSample> samples;
+  const PeakPrior& prior;
+  Eigen::Vector3d along, across;  ///< the surface's plane
+  double scale;                   ///< of the model's error, C
+
+  [[nodiscard]] int values() const { return static_cast<int>(samples.size()) + kPriors; }
+  [[nodiscard]] double sigmaOf(const PeakSample& sample) const { return std::hypot(sample.sigma, scale); }
+
+  int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const {
+    const PeakModel model = modelOf(x);
+    Eigen::Index row = 0;
+    for (const PeakSample& sample : samples) {
+      residuals[row++] = soft((model.at(sample.p_world) - sample.celsius) / sigmaOf(sample)).value;
+    }
+    const Eigen::Vector3d moved = x.head<3>() - prior.guess.centre;
+    residuals[row++] = prior.normal.dot(moved) / prior.surface_sigma;
+    residuals[row++] = along.dot(moved) / (3.0 * prior.guess.width);
+    residuals[row++] = across.dot(moved) / (3.0 * prior.guess.width);
+    residuals[row++] = (x[4] - std::log(prior.guess.width)) / prior.width_sigma;
+    residuals[row++] = (x[5] - prior.guess.reference) / prior.reference_sigma;
+    return 0;
+  }
+
+  int df(const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian) const {
+    const PeakModel model = modelOf(x);
+    jacobian.setZero();
+    Eigen::Index row = 0;
+    for (const PeakSample& sample : samples) {
+      const Eigen::Vector3d d = sample.p_world - model.centre;
+      const double rise = model.at(sample.p_world) - model.reference;
+      const double sigma = sigmaOf(sample);
+      const double slope = soft((model.reference + rise - sample.celsius) / sigma).slope / sigma;
+      const double w2 = model.width * model.width;
+      jacobian.block<1, 3>(row, 0) = slope * rise / w2 * d.transpose();
+      jacobian(row, 3) = slope * rise;
+      jacobian(row, 4) = slope * rise * d.squaredNorm() / w2;
+      jacobian(row, 5) = slope;
+      ++row;
+    }
+    jacobian.block<1, 3>(row++, 0) = prior.normal.transpose() / prior.surface_sigma;
+    jacobian.block<1, 3>(row++, 0) = along.transpose() / (3.0 * prior.guess.width);
+    jacobian.block<1, 3>(row++, 0) = across.transpose() / (3.0 * prior.guess.width);
+    jacobian(row++, 4) = 1.0 / prior.width_sigma;
+    jacobian(row++, 5) = 1.0 / prior.reference_sigma;
+    return 0;
+  }
+};
+
+PeakProblem problemOf(std::span<const PeakSample> samples, const PeakPrior& prior) {
+  const bool is_plane = !prior.normal.isZero();
+  const Eigen::Vector3d n = is_plane ? prior.normal : Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d along = n.unitOrthogonal();
+  return {samples, prior, along, n.cross(along), prior.model_error * prior.guess.rise};
+}
+
+}  // namespace
+
+double PeakModel::at(const Eigen::Vector3d& p_world) const {
+  return reference + rise * std::exp(-(p_world - centre).squaredNorm() / (2.0 * width * width));
+}
+
+std::optional<PeakFit> fitPeak(std::span<const PeakSample> samples, const PeakPrior& given) {
+  PeakPrior prior = given;
+  if (prior.normal.isZero()) {  // nothing is known along z either, but that it is near
+    prior.normal = Eigen::Vector3d::UnitZ();
+    prior.surface_sigma = 3.0 * prior.guess.width;
+  }
+  PeakProblem problem = problemOf(samples, prior);
+  Eigen::VectorXd x(6);
+  x << prior.guess.centre, std::log(prior.guess.rise), std::log(prior.guess.width), prior.guess.reference;
+  Eigen::LevenbergMarquardt<PeakProblem> solver(problem);
+  const auto status = solver.minimize(x);
+  if (status <= 0 || !x.allFinite()) return std::nullopt;
+  PeakFit fit{modelOf(x), {}, 0.0};
+  const double growth = fit.model.width / prior.guess.width;
+  if ((fit.model.centre - prior.guess.centre).norm() > 4.0 * prior.guess.width || !(growth > 1.0 / 3.0) ||
+      !(growth < 3.0)) {
+    return std::nullopt;
+  }
+  Eigen::MatrixXd jacobian(problem.values(), 6);
+  problem.df(x, jacobian);
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> information(
+      Eigen::Matrix<double, 6, 6>(jacobian.transpose() * jacobian));
+  if (information.info() != Eigen::Success || !information.isPositive()) return std::nullopt;
+  Eigen::VectorXd residuals(problem.values());
+  problem(x, residuals);
+  const double freedom = std::max(static_cast<double>(samples.size()) - 6.0, 1.0);
+  const double chi2 = residuals.head(static_cast<Eigen::Index>(samples.size())).squaredNorm() / freedom;
+  fit.misfit = std::sqrt(chi2);
+  fit.covariance = information.solve(Eigen::Matrix<double, 6, 6>::Identity()) * std::max(chi2, 1.0);
+  return fit;
+}
+
+}  // namespace thermovox

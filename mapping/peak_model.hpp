@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mapping/hotspot.hpp"
+
+namespace thermovox {
+
+/// A temperature at a place, for the fit of a peak.
+struct PeakSample {
+  Eigen::Vector3d p_world;  ///< metres
+  double celsius;
+  double sigma;  ///< of the temperature, C
+};
+
+/// The shape of a small heat source as a map shows it: T(p) = reference + rise exp(-|p - centre|^2 / (2
+/// width^2)). Conduction in a plate and the blur of camera and cells all make peaks that are nearly so.
+struct PeakModel {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< on the surface, metres
+  double rise = 0.0;                                 ///< C
+  double width = 0.0;                                ///< one sigma, metres
+  double reference = 0.0;                            ///< C
+
+  [[nodiscard]] double at(const Eigen::Vector3d& p_world) const;
+};
+
+struct PeakFit {
+  PeakModel model;
+  /// Of centre x y z (m), ln rise, ln width, reference (C); widened where the samples scatter more about the
+  /// model than their sigmas say.
+  Eigen::Matrix<double, 6, 6> covariance;
+  double misfit = 0.0;  ///< robust root mean square of the samples about the model, in their sigmas
+};
+
+/// What is known before the fit.
+struct PeakPrior {
+  PeakModel guess;
+  /// Unit normal of the surface through guess.centre, or zero; along it the centre is known to surface_sigma.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double surface_sigma = 0.01;   ///< metres
+  double width_sigma = 0.7;      ///< of ln width
+  double reference_sigma = 1.0;  ///< C
+  double model_error = 0.05;     ///< of the rise: what a real peak differs from the model by, as a sigma
+};
+
+/// Least squares with a soft L1 loss (Triggs et al., Bundle Adjustment - A Modern Synthesis, 2000) by
+/// Levenberg and Marquardt. None where it does not converge, or to no peak: where the centre leaves the
+/// samples, or the width falls under a third or grows over three times the guess.
+[[nodiscard]] std::optional<PeakFit> fitPeak(std::span<const PeakSample> samples, const PeakPrior& prior);
+
+}  // namespace thermovox
