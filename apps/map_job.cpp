@@ -122,7 +122,10 @@ MissionRecord recordOf(const OpenedMission& opened, const MissionReport& report,
           .points = static_cast<std::int64_t>(report.points),
           .coloured = static_cast<std::int64_t>(report.coloured),
           .first = report.first_stamp,
-          .last = report.last_stamp};
+          .last = report.last_stamp,
+          .ambient = opened.mission.ambient,
+          .pose_sigmas = {opened.mission.pose_rotation_sigma, opened.mission.pose_translation_sigma},
+          .shared_motions = report.shared_motions};
 }
 
 std::unique_ptr<PointsRecord> openRecord(const MapJob& job) {

@@ -99,6 +99,11 @@ SqlStatement& SqlStatement::bindText(int parameter, std::string_view text) {
   return *this;
 }
 
+SqlStatement& SqlStatement::bindReal(int parameter, double number) {
+  check(sqlite3_bind_double(statement_.get(), parameter, number));
+  return *this;
+}
+
 SqlStatement& SqlStatement::bindBlob(int parameter, std::string_view bytes) {
   check(sqlite3_bind_blob64(statement_.get(), parameter, bytes.data(), bytes.size(), SQLITE_TRANSIENT));
   return *this;
@@ -133,6 +138,11 @@ bool SqlStatement::isNull(int column) const {
 std::int64_t SqlStatement::integer(int column) const {
   expectType(column, SQLITE_INTEGER, "a whole number");
   return sqlite3_column_int64(statement_.get(), column);
+}
+
+double SqlStatement::real(int column) const {
+  expectType(column, SQLITE_FLOAT, "a number");
+  return sqlite3_column_double(statement_.get(), column);
 }
 
 std::string SqlStatement::text(int column) const {

@@ -18,6 +18,7 @@ class SqlStatement {
 
   /// Parameters count from 1, in the order of their question marks.
   SqlStatement& bind(int parameter, std::int64_t number);
+  SqlStatement& bindReal(int parameter, double number);
   SqlStatement& bindText(int parameter, std::string_view text);
   SqlStatement& bindBlob(int parameter, std::string_view bytes);
 
@@ -30,6 +31,7 @@ class SqlStatement {
   [[nodiscard]] bool isNull(int column) const;
   /// Columns count from 0. A column of another type than asked for is a DataError.
   [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] double real(int column) const;
   [[nodiscard]] std::string text(int column) const;
   /// Valid until the next step().
   [[nodiscard]] std::string_view blob(int column) const;

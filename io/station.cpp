@@ -17,13 +17,10 @@ namespace thermovox {
 namespace fs = std::filesystem;
 namespace {
 
-void checkNewAmong(const std::vector<MissionRecord>& missions, const std::string& name,
-                   const fs::path& path) {
-  for (const MissionRecord& known : missions) {
-    if (known.name != name) continue;
-    throw DataError(path.string() + ": has the mission '" + name +
-                    "' already, expected one of another name (or --again to integrate it once more)");
-  }
+void checkNewName(const MissionRecord& known, const std::string& name, const fs::path& path) {
+  if (known.name != name) return;
+  throw DataError(path.string() + ": has the mission '" + name +
+                  "' already, expected one of another name (or --again to integrate it once more)");
 }
 
 void checkOptions(const ThermalMap::Options& of_map, const ThermalMap::Options& of_station,
@@ -38,7 +35,9 @@ void checkAddition(const Station::Addition& addition, const StationContent& cont
                    const fs::path& path) {
   const auto& [record, map] = addition;
   checkOptions(map->options(), content.options, path);
-  if (known == KnownMission::refuse) checkNewAmong(content.missions, record.name, path);
+  if (known == KnownMission::add_again) return;
+  for (const StationContent::Mission& mission : content.missions)
+    checkNewName(mission.record, record.name, path);
 }
 
 }  // namespace
@@ -95,8 +94,17 @@ void Station::loadInto(ThermalMap& map) const {
   loadTiles(tiles, path_, access_.threads, map);
 }
 
+std::optional<ThermalMap> Station::loadLayer(std::size_t place) const {
+  const auto id = static_cast<std::int64_t>(place) + 1;
+  if (!database_ || !hasLayer(*database_, id)) return std::nullopt;
+  ThermalMap layer(options_);
+  StationTiles tiles(*database_, path_, id);
+  loadTiles(tiles, path_, access_.threads, layer);
+  return layer;
+}
+
 void Station::checkNew(const std::string& mission) const {
-  checkNewAmong(missions(), mission, path_);
+  for (const MissionRecord& known : missions()) checkNewName(known, mission, path_);
 }
 
 void Station::addMission(const MissionRecord& record, const ThermalMap& mission_map, KnownMission known) {
@@ -114,12 +122,12 @@ void Station::addMissions(std::span<const Addition> additions, KnownMission know
       checkStationTables(*there, path_);
       checkCounts(*there, path_);
       content.options = readStationOptions(*there, path_);
-      content.missions = readMissions(*there, path_);
+      content.missions = storedMissions(*there, path_);
       content.sources.push_back(std::make_unique<StationTiles>(*there, path_));
     }
     for (const Addition& addition : additions) {
       checkAddition(addition, content, known, path_);
-      content.missions.push_back(addition.record);
+      content.missions.push_back({addition.record, std::make_unique<LayerTiles>(*addition.map)});
       content.sources.push_back(std::make_unique<MapTiles>(*addition.map));
     }
     StationWriter writer(path_);
@@ -149,10 +157,15 @@ std::vector<std::string> Station::verify() const {
   note([&] { checkCounts(*database_, path_); });
   note([&] { (void)missions(); });
   note([&] {
-    StationTiles tiles(*database_, path_);
-    forEachDecodedTile(tiles, path_, access_.threads, [&](TileBlocks&, const std::string& fault) {
-      if (!fault.empty()) faults.push_back(fault);
-    });
+    const auto verifyTiles = [&](StationTiles tiles) {
+      forEachDecodedTile(tiles, path_, access_.threads, [&](TileBlocks&, const std::string& fault) {
+        if (!fault.empty()) faults.push_back(fault);
+      });
+    };
+    verifyTiles(StationTiles(*database_, path_));
+    for (std::int64_t id = 1; id <= countStation(*database_).missions; ++id) {
+      if (hasLayer(*database_, id)) verifyTiles(StationTiles(*database_, path_, id));
+    }
   });
   return faults;
 }

@@ -10,6 +10,7 @@
 
 #include "io/sqlite.hpp"
 #include "io/station_file.hpp"
+#include "mapping/shared_errors.hpp"
 #include "mapping/thermal_map.hpp"
 #include "projection/pose.hpp"
 
@@ -28,6 +29,9 @@ struct MissionRecord {
   std::string version;                  ///< of thermovox
   std::int64_t mapped_at = 0;           ///< when it was mapped, Unix seconds
   std::optional<Pose> T_world_mission;  ///< by which a merge has moved it; none as it was mapped
+  std::optional<double> ambient;        ///< of the air, C, as the mission says
+  PoseSigmas pose_sigmas;
+  std::vector<SharedMotion> shared_motions;  ///< how shared errors move what it mapped
 };
 
 /// What to do with a mission whose name the station has already.
@@ -55,7 +59,8 @@ class Station {
     std::int64_t missions = 0;
     std::int64_t tiles = 0;
     std::int64_t blocks = 0;
-    std::int64_t surfaces = 0;  ///< cells that hold a surface
+    std::int64_t surfaces = 0;     ///< cells that hold a surface
+    std::int64_t layer_tiles = 0;  ///< of the missions' own temperatures
     friend bool operator==(const Counts&, const Counts&) = default;
   };
 
@@ -84,6 +89,10 @@ class Station {
   /// The same into a map without content, which may have a limit of its memory. Throws ConfigError when it
   /// has other options.
   void loadInto(ThermalMap& map) const;
+  /// The surfaces to which one mission alone gave a temperature, with no occupancy; `place` counts in the
+  /// order of missions(). None where the station keeps none: those of version 3 and before, and what a newer
+  /// program has taken from them.
+  [[nodiscard]] std::optional<ThermalMap> loadLayer(std::size_t place) const;
 
   /// Throws DataError naming mission and station when it has a mission of that name. For verbs that work for
   /// minutes before they write: ask first.

@@ -50,25 +50,9 @@ void checkSameCells(const Merge& merge, const MergeInput& input, const MergeInpu
   }
 }
 
-void addMissions(Merge& merge, const MergeInput& input, std::vector<MissionRecord> missions) {
-  for (MissionRecord& mission : missions) {
-    const auto [known, is_new] = merge.station_of.emplace(mission.name, input.station);
-    if (!is_new && known->second != input.station) {
-      throw DataError("the mission " + inQuotes(mission.name) + " is in both " + known->second.string() +
-                      " and " + input.station.string() + ", expected each mission in one station");
-    }
-    if (input.T_world_station) {
-      mission.T_world_mission = mission.T_world_mission ? *input.T_world_station * *mission.T_world_mission
-                                                        : *input.T_world_station;
-    }
-    merge.content.missions.push_back(std::move(mission));
-  }
-}
-
-const ThermalMap& movedStation(Merge& merge, const SqlDatabase& database, const MergeInput& input) {
+const ThermalMap& movedTiles(Merge& merge, StationTiles tiles, const MergeInput& input) {
   SpillingMap before(merge.folder, merge.content.options);
   before.limitTo(merge.map_bytes);
-  StationTiles tiles(database, input.station);
   loadTiles(tiles, input.station, merge.threads, before.map);
   SpillingMap& moved = merge.moved.emplace_back(merge.folder, merge.content.options);
   moved.limitTo(merge.map_bytes);
@@ -78,6 +62,33 @@ const ThermalMap& movedStation(Merge& merge, const SqlDatabase& database, const 
     throw DataError(input.station.string() + ": " + error.what());
   }
   return moved.map;
+}
+
+/// A mission goes with its station.
+void move(Merge& merge, const SqlDatabase& database, const MergeInput& input,
+          StationContent::Mission& mission, std::int64_t id) {
+  MissionRecord& record = mission.record;
+  record.T_world_mission =
+      record.T_world_mission ? *input.T_world_station * *record.T_world_mission : *input.T_world_station;
+  record.shared_motions = moved(record.shared_motions, *input.T_world_station);
+  if (!mission.layer) return;
+  mission.layer =
+      std::make_unique<LayerTiles>(movedTiles(merge, StationTiles(database, input.station, id), input));
+}
+
+void addMissions(Merge& merge, const SqlDatabase& database, const MergeInput& input) {
+  std::int64_t id = 0;
+  for (StationContent::Mission& stored : storedMissions(database, input.station)) {
+    const MissionRecord& mission = stored.record;
+    const auto [known, is_new] = merge.station_of.emplace(mission.name, input.station);
+    if (!is_new && known->second != input.station) {
+      throw DataError("the mission " + inQuotes(mission.name) + " is in both " + known->second.string() +
+                      " and " + input.station.string() + ", expected each mission in one station");
+    }
+    ++id;
+    if (input.T_world_station) move(merge, database, input, stored, id);
+    merge.content.missions.push_back(std::move(stored));
+  }
 }
 
 void addStation(Merge& merge, const MergeInput& input, const MergeInput& first) {
@@ -91,9 +102,10 @@ void addStation(Merge& merge, const MergeInput& input, const MergeInput& first) 
     merge.frame = frame;
   }
   checkSameCells(merge, input, first, options, frame);
-  addMissions(merge, input, readMissions(database, input.station));
+  addMissions(merge, database, input);
   if (input.T_world_station) {
-    merge.content.sources.push_back(std::make_unique<MapTiles>(movedStation(merge, database, input)));
+    merge.content.sources.push_back(
+        std::make_unique<MapTiles>(movedTiles(merge, StationTiles(database, input.station), input)));
   } else {
     merge.content.sources.push_back(std::make_unique<StationTiles>(database, input.station));
   }

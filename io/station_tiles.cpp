@@ -23,12 +23,34 @@ TileKey tileKeyOf(const SqlStatement& row, const std::filesystem::path& path) {
   return {index(0), index(1), index(2)};
 }
 
+/// The surfaces of a tile that have a temperature; null where there are none.
+std::shared_ptr<const MapTile> temperaturesOf(const MapTile& tile) {
+  std::shared_ptr<MapTile> layer;
+  tile.forEachBlock([&](int block_index, const Block& block) {
+    block.forEachSurface([&](int index, const SurfaceCell& cell) {
+      if (cell.observations == 0) return;
+      if (!layer) layer = std::make_shared<MapTile>();
+      layer->blockOrNew(block_index).surfaceOrNew(index) = cell;
+    });
+  });
+  return layer;
+}
+
 }  // namespace
 
 StationTiles::StationTiles(const SqlDatabase& database, std::filesystem::path path)
     : path_(std::move(path)),
       current_(stationVersion(database) == kStationSchema),
       query_(database.prepare("SELECT x, y, z, blocks, surfaces, data FROM tiles ORDER BY x, y, z")) {
+  read();
+}
+
+StationTiles::StationTiles(const SqlDatabase& database, std::filesystem::path path, std::int64_t mission_id)
+    : path_(std::move(path)),
+      current_(stationVersion(database) == kStationSchema),
+      query_(database.prepare("SELECT x, y, z, blocks, surfaces, data FROM layers WHERE mission = ? "
+                              "ORDER BY x, y, z")) {
+  query_.bind(1, mission_id);
   read();
 }
 
@@ -60,6 +82,25 @@ std::optional<TileKey> MapTiles::key() const {
 
 TileSource::Part MapTiles::next() {
   return {.tile = map_.tile(keys_[place_++])};
+}
+
+LayerTiles::LayerTiles(const ThermalMap& map) : map_(map), keys_(map.sortedTileKeys()) {
+  advance();
+}
+
+std::optional<TileKey> LayerTiles::key() const {
+  return tile_ ? std::optional(keys_[place_ - 1]) : std::nullopt;
+}
+
+TileSource::Part LayerTiles::next() {
+  Part part{.tile = std::move(tile_)};
+  advance();
+  return part;
+}
+
+void LayerTiles::advance() {
+  tile_.reset();
+  while (!tile_ && place_ < keys_.size()) tile_ = temperaturesOf(*map_.tile(keys_[place_++]));
 }
 
 std::int64_t surfacesIn(const TileBlocks& blocks) {

@@ -50,6 +50,8 @@ class TileSource {
 class StationTiles final : public TileSource {
  public:
   StationTiles(const SqlDatabase& database, std::filesystem::path path);
+  /// The tiles of one mission's layer, by the mission's id.
+  StationTiles(const SqlDatabase& database, std::filesystem::path path, std::int64_t mission_id);
   [[nodiscard]] std::optional<TileKey> key() const override;
   [[nodiscard]] Part next() override;
 
@@ -73,6 +75,22 @@ class MapTiles final : public TileSource {
   const ThermalMap& map_;
   std::vector<TileKey> keys_;  ///< ascending
   std::size_t place_ = 0;
+};
+
+/// The same of a mission's map, but only the surfaces that have a temperature, and no occupancy: its layer.
+class LayerTiles final : public TileSource {
+ public:
+  explicit LayerTiles(const ThermalMap& map);
+  [[nodiscard]] std::optional<TileKey> key() const override;
+  [[nodiscard]] Part next() override;
+
+ private:
+  void advance();
+
+  const ThermalMap& map_;
+  std::vector<TileKey> keys_;  ///< ascending
+  std::size_t place_ = 0;
+  std::shared_ptr<const MapTile> tile_;  ///< at hand; null after the last
 };
 
 /// The tile's blocks. Throws DataError naming the station, and when the tile holds other than it says.

@@ -86,8 +86,8 @@ StoredTile stored(TileJob& job) {
   return {job.key, static_cast<std::int64_t>(sum.size()), surfacesIn(sum), encodeTile(sum)};
 }
 
-void writeTiles(SqlDatabase& database, std::vector<std::unique_ptr<TileSource>>& sources, int threads) {
-  SqlStatement insert = database.prepare("INSERT INTO tiles VALUES (?, ?, ?, ?, ?, ?)");
+/// `insert` takes a tile's key, its counts and its bytes.
+void writeTiles(SqlStatement insert, std::vector<std::unique_ptr<TileSource>>& sources, int threads) {
   for (std::vector<TileJob> jobs = nextJobs(sources); !jobs.empty(); jobs = nextJobs(sources)) {
     std::vector<StoredTile> tiles(jobs.size());
     parallelFor(jobs.size(), threads, [&](std::size_t i) { tiles[i] = stored(jobs[i]); });
@@ -98,17 +98,42 @@ void writeTiles(SqlDatabase& database, std::vector<std::unique_ptr<TileSource>>&
   }
 }
 
+void writeMissions(SqlDatabase& database, std::vector<StationContent::Mission>& missions, int threads) {
+  for (const StationContent::Mission& mission : missions) {
+    insertMission(database, mission.record, mission.layer ? HasLayer::yes : HasLayer::no);
+  }
+  for (std::size_t i = 0; i < missions.size(); ++i) {
+    if (!missions[i].layer) continue;
+    const std::string id = std::to_string(i + 1);
+    std::vector<std::unique_ptr<TileSource>> layer;
+    layer.push_back(std::move(missions[i].layer));
+    writeTiles(database.prepare("INSERT INTO layers VALUES (" + id + ", ?, ?, ?, ?, ?, ?)"), layer, threads);
+  }
+}
+
 /// In the order of their flights: by first stamp, then name; those without stamps last.
-void sortMissions(std::vector<MissionRecord>& missions) {
-  const auto key = [](const MissionRecord& m) {
+void sortMissions(std::vector<StationContent::Mission>& missions) {
+  const auto key = [](const StationContent::Mission& mission) {
+    const MissionRecord& m = mission.record;
     return std::tuple(!m.first, m.first, m.name, m.last, m.readings, m.points, m.coloured, m.mapped_at, m.rig,
                       m.parameters, m.version, m.T_world_mission ? poseText(*m.T_world_mission) : "");
   };
-  std::sort(missions.begin(), missions.end(),
-            [&](const MissionRecord& a, const MissionRecord& b) { return key(a) < key(b); });
+  std::sort(
+      missions.begin(), missions.end(),
+      [&](const StationContent::Mission& a, const StationContent::Mission& b) { return key(a) < key(b); });
 }
 
 }  // namespace
+
+std::vector<StationContent::Mission> storedMissions(const SqlDatabase& database, const fs::path& path) {
+  std::vector<StationContent::Mission> missions;
+  for (MissionRecord& record : readMissions(database, path)) {
+    const auto id = static_cast<std::int64_t>(missions.size()) + 1;
+    missions.push_back({std::move(record), nullptr});
+    if (hasLayer(database, id)) missions.back().layer = std::make_unique<StationTiles>(database, path, id);
+  }
+  return missions;
+}
 
 StationWriter::StationWriter(fs::path path) : path_(std::move(path)), file_(path_) {
   checkFolderOf(path_);
@@ -129,8 +154,8 @@ void StationWriter::write(StationContent content, int threads) {
     SqlDatabase database(unfinished_->path(), SqlDatabase::Mode::build, path_.string());
     database.execute("BEGIN");
     createStationTables(database);
-    for (const MissionRecord& mission : content.missions) insertMission(database, mission);
-    writeTiles(database, content.sources, threads);
+    writeMissions(database, content.missions, threads);
+    writeTiles(database.prepare("INSERT INTO tiles VALUES (?, ?, ?, ?, ?, ?)"), content.sources, threads);
     writeStationMeta(database, content.options);
     database.execute("COMMIT");
   }

@@ -14,9 +14,17 @@ namespace thermovox {
 /// What a station is made of. The order of missions and sources makes no difference.
 struct StationContent {
   ThermalMap::Options options;
-  std::vector<MissionRecord> missions;
+  struct Mission {
+    MissionRecord record;
+    std::unique_ptr<TileSource> layer;  ///< its own temperatures; null where nobody has kept them
+  };
+  std::vector<Mission> missions;
   std::vector<std::unique_ptr<TileSource>> sources;  ///< whose maps add up to that of the station
 };
+
+/// The missions of a station's database, which must live on, with their layers.
+[[nodiscard]] std::vector<StationContent::Mission> storedMissions(const SqlDatabase& database,
+                                                                  const std::filesystem::path& path);
 
 /// A station file in the making: built whole beside its name, then put into place in one step. Until then,
 /// and when it is not, nothing is to be seen under the name. Its bytes depend on the content alone: missions

@@ -5,8 +5,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mapping/frame_window.hpp"
+#include "mapping/shared_errors.hpp"
 #include "projection/time.hpp"
 
 namespace thermovox {
@@ -54,6 +56,7 @@ struct MissionReport {
   std::size_t frames_without_pose = 0;
   std::optional<Time> first_stamp;  ///< of the points
   std::optional<Time> last_stamp;
+  std::vector<SharedMotion> shared_motions;  ///< how shared errors move the returns, by place
 };
 
 }  // namespace thermovox

@@ -9,7 +9,7 @@ namespace thermovox {
 namespace {
 
 constexpr std::size_t kEach = 64;  // readings of no more returns are taken wholly
-constexpr std::size_t kStep = 8;   // of longer ones every so many-th
+constexpr std::size_t kStep = 32;  // of longer ones every so many-th
 constexpr double kLeastCosine =
     0.3;  // of the angle between ray and normal: beyond 73 degrees nothing is located
 constexpr std::int32_t kReach = 2;  // cubes
@@ -47,6 +47,20 @@ Eigen::Matrix3d alongTheView(const Eigen::Vector3d& view, const Eigen::Vector3d&
   const Eigen::Vector3d d = view.normalized();
   const double cosine = normal.dot(d);
   return d * normal.transpose() / std::copysign(std::max(std::abs(cosine), kLeastCosine), cosine);
+}
+
+/// Of both together, by their counts.
+SharedMotion average(const SharedMotion& a, const SharedMotion& b) {
+  const float total = static_cast<float>(a.count) + static_cast<float>(b.count);
+  const float of_a = static_cast<float>(a.count) / total, of_b = static_cast<float>(b.count) / total;
+  return {a.cube,
+          a.laser,
+          a.count + b.count,
+          of_a * a.by_rotation + of_b * b.by_rotation,
+          of_a * a.by_translation + of_b * b.by_translation,
+          of_a * a.by_range + of_b * b.by_range,
+          of_a * a.lever + of_b * b.lever,
+          of_a * a.view + of_b * b.view};
 }
 
 /// Of one laser's own errors.
@@ -96,6 +110,23 @@ std::vector<SharedMotion> SharedMotions::means() const {
                        (sums.view * share).cast<float>()});
   }
   return motions;
+}
+
+std::vector<SharedMotion> moved(std::span<const SharedMotion> motions, const Pose& T_world_map) {
+  const Eigen::Matrix3f R = T_world_map.matrix().cast<float>();
+  std::map<std::tuple<BlockKey, std::uint32_t>, SharedMotion> by_cube;
+  for (const SharedMotion& motion : motions) {
+    const Eigen::Vector3d centre =
+        (Eigen::Vector3d(motion.cube.x, motion.cube.y, motion.cube.z).array() + 0.5) * SharedMotion::kEdge;
+    SharedMotion turned{
+        cubeOf(T_world_map * centre), motion.laser,        motion.count,     R * motion.by_rotation,
+        R * motion.by_translation,    R * motion.by_range, R * motion.lever, R * motion.view};
+    const auto [place, is_new] = by_cube.try_emplace({turned.cube, turned.laser}, turned);
+    if (!is_new) place->second = average(place->second, turned);
+  }
+  std::vector<SharedMotion> result;
+  for (const auto& [key, motion] : by_cube) result.push_back(motion);
+  return result;
 }
 
 Eigen::Matrix3d sharedCovariance(const Eigen::Vector3d& p_world, const Eigen::Vector3d& normal,

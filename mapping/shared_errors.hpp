@@ -37,7 +37,7 @@ class SharedMotions {
   /// The mission must outlive the object.
   explicit SharedMotions(const Mission& mission) : mission_(mission) {}
 
-  /// Takes every eighth return of a reading, and of short ones each.
+  /// Takes every 32nd return of a reading, and of short ones each.
   void add(std::span<const PlacedReturn> reading, std::size_t laser);
   /// By cube, then laser.
   [[nodiscard]] std::vector<SharedMotion> means() const;
@@ -54,6 +54,10 @@ class SharedMotions {
   const Mission& mission_;
   std::map<std::tuple<BlockKey, std::uint32_t>, Sums> sums_;
 };
+
+/// The same after a rigid motion of the world: T_world_map takes the old coordinates to the new ones. A cube
+/// goes where its centre goes; those that meet are averaged.
+[[nodiscard]] std::vector<SharedMotion> moved(std::span<const SharedMotion> motions, const Pose& T_world_map);
 
 /// What a mission declares of its errors besides its rig's.
 struct PoseSigmas {

@@ -1,0 +1,158 @@
+#include "mapping/hotspot_history.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mapping/assignment.hpp"
+#include "mapping/hot_clusters.hpp"
+
+namespace thermovox {
+namespace {
+
+constexpr double kGate = 16.27;       // chi squared, 3 degrees of freedom, 99.9 %
+constexpr double kFarthest = 0.5;     // metres
+constexpr double kSizeSigma = 0.5;    // of the logarithm of a width
+constexpr double kSeenAgain = 0.5;    // of its cells
+constexpr double kLeastChange = 2.0;  // C
+constexpr double kSure = 3.0;         // sigmas
+constexpr double kGap = 0.15;         // metres between a spot and its surroundings
+constexpr double kShapeError = 0.01;  // of a delta: what one spot seen twice differs by for its shape
+
+double widthOf(const Hotspot& spot, double resolution) {
+  return std::max(spot.width, resolution);
+}
+
+/// Infinite where the two cannot be one.
+double costOf(const Hotspot& a, const Hotspot& b, double resolution) {
+  const Eigen::Vector3d apart = b.position.p_world - a.position.p_world;
+  const double width_a = widthOf(a, resolution), width_b = widthOf(b, resolution);
+  if (apart.norm() > kFarthest) return std::numeric_limits<double>::infinity();
+  const double slack = 0.5 * std::max(width_a, width_b);
+  const Eigen::Matrix3d covariance =
+      a.position.covariance() + b.position.covariance() + slack * slack * Eigen::Matrix3d::Identity();
+  const double size = std::log(width_a / width_b) / kSizeSigma;
+  const bool both_fitted = a.width > 0.0 && b.width > 0.0;
+  return apart.dot(covariance.ldlt().solve(apart)) + (both_fitted ? size * size : 0.0);
+}
+
+/// Whether a mission's temperatures cover the place of a spot.
+bool sawPlace(const SurfaceLayer& layer, const Hotspot& spot) {
+  const double near = 1.5 * layer.resolution();
+  if (layer.within(spot.position.p_world, std::max(spot.width, near)).empty()) return false;
+  std::size_t seen = 0;
+  for (const CellKey& key : spot.cells) {
+    const Eigen::Vector3d centre = (Eigen::Vector3d(key.x, key.y, key.z).array() + 0.5) * layer.resolution();
+    if (!layer.within(centre, near).empty()) ++seen;
+  }
+  return static_cast<double>(seen) >= kSeenAgain * static_cast<double>(spot.cells.size());
+}
+
+/// By how much a mission found the place of a spot warmer than its surroundings: the warmest of the cells at
+/// the peak. None where there is nothing to compare with.
+std::optional<Estimate> excessAt(const SurfaceLayer& layer, const Hotspot& spot) {
+  const std::vector<std::uint32_t> here = layer.within(
+      spot.position.p_world, std::max(0.5 * widthOf(spot, layer.resolution()), 1.5 * layer.resolution()));
+  if (here.empty()) return std::nullopt;
+  const std::uint32_t warmest = *std::max_element(
+      here.begin(), here.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return layer[a].celsius < layer[b].celsius; });
+  const double gap = std::max(kGap, 2.0 * spot.width);
+  const auto reference = localReference(layer, here, gap, std::vector<bool>(layer.samples().size()));
+  if (!reference) return std::nullopt;
+  return Estimate{layer[warmest].celsius - reference->celsius,
+                  std::hypot(static_cast<double>(layer[warmest].sigma), reference->sigma)};
+}
+
+}  // namespace
+
+const char* nameOf(HotspotState state) {
+  constexpr const char* names[] = {"new", "growing", "steady", "cooling", "gone", "not_observed"};
+  return names[static_cast<std::size_t>(state)];
+}
+
+double HotspotChange::significance() const {
+  return change.sigma > 0.0 ? std::abs(change.value) / change.sigma : 0.0;
+}
+
+std::size_t HotspotTrack::lastSeen() const {
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i]) last = i;
+  }
+  return last;
+}
+
+void HotspotHistory::add(MissionSight sight) {
+  missions_.push_back(std::move(sight));
+  const MissionSight& now = missions_.back();
+  Eigen::MatrixXd costs(tracks_.size(), now.hotspots.size());
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const Hotspot& known = *tracks_[i].seen[tracks_[i].lastSeen()];
+    for (std::size_t j = 0; j < now.hotspots.size(); ++j) {
+      costs(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          costOf(known, now.hotspots[j], now.layer->resolution());
+    }
+  }
+  const std::vector<std::optional<int>> assigned = assign(costs, kGate);
+  std::vector<bool> known(now.hotspots.size());
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    HotspotTrack& track = tracks_[i];
+    const std::size_t before = track.lastSeen();
+    track.seen.emplace_back();
+    if (assigned[i]) {
+      const auto j = static_cast<std::size_t>(*assigned[i]);
+      known[j] = true;
+      track.seen.back() = now.hotspots[j];
+    }
+    track.changes.emplace_back(changeOf(track, before, missions_.size() - 1));
+  }
+  for (std::size_t j = 0; j < now.hotspots.size(); ++j) {
+    if (known[j]) continue;
+    HotspotTrack track{.id = static_cast<int>(tracks_.size()) + 1};
+    track.seen.resize(missions_.size());
+    track.changes.resize(missions_.size());
+    track.seen.back() = now.hotspots[j];
+    track.changes.back() = HotspotChange{
+        .to = now.hotspots[j].delta, .state = HotspotState::fresh, .alarm = missions_.size() > 1};
+    tracks_.push_back(std::move(track));
+  }
+}
+
+HotspotChange HotspotHistory::changeOf(const HotspotTrack& track, std::size_t from, std::size_t to) const {
+  const auto deltaIn = [&](std::size_t mission) -> std::optional<Estimate> {
+    if (track.seen[mission]) return track.seen[mission]->delta;
+    const Hotspot& spot = *track.seen[track.lastSeen()];
+    const SurfaceLayer& layer = *missions_[mission].layer;
+    return sawPlace(layer, spot) ? excessAt(layer, spot) : std::nullopt;
+  };
+  HotspotChange change{.from = deltaIn(from), .to = deltaIn(to)};
+  if (change.from && change.to) {
+    const double shape = kShapeError * std::max(change.from->value, change.to->value);
+    change.change = {change.to->value - change.from->value,
+                     std::hypot(change.from->sigma, change.to->sigma, shape)};
+  }
+  const bool counts = std::abs(change.change.value) >= kLeastChange && change.significance() >= kSure;
+  if (!track.seen[to]) {
+    change.state = change.to ? HotspotState::gone : HotspotState::not_observed;
+  } else if (!track.seen[from]) {
+    change.state = HotspotState::fresh;
+    change.alarm = !change.from || counts;
+  } else if (counts) {
+    change.state = change.change.value > 0.0 ? HotspotState::growing : HotspotState::cooling;
+    change.alarm = change.change.value > 0.0;
+  }
+  return change;
+}
+
+std::vector<HotspotHistory::Difference> HotspotHistory::between(std::size_t from, std::size_t to) const {
+  std::vector<Difference> differences;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!tracks_[i].seen[from] && !tracks_[i].seen[to]) continue;
+    differences.push_back({i, changeOf(tracks_[i], from, to)});
+  }
+  return differences;
+}
+
+}  // namespace thermovox
