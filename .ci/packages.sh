@@ -20,6 +20,8 @@ packages_lint=(cmake clang-format-14 shellcheck)
 packages_tidy=(clang clang-tidy-14)
 # What decoding of thermal images is compared with, by hand.
 packages_peers=(libimage-exiftool-perl python3-numpy)
+# To read LAS files with somebody else's reader; without them that test is skipped.
+packages_readers=(nodejs npm)
 # Programs to look at results with: CloudCompare, octovis, PCL's viewer.
 packages_view=(cloudcompare octovis pcl-tools)
 

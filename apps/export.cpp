@@ -46,7 +46,7 @@ void writePicture(const ExportArgs& args, const Station& station, const ThermalM
 }
 
 void runExport(ExportArgs& args) {
-  checkEnding(args.out, {".ply", ".pcd", ".csv", ".bt", ".ot", ".png"});
+  checkEnding(args.out, {".ply", ".pcd", ".las", ".csv", ".bt", ".ot", ".png"});
   args.scale.span = spanFrom(args.span);
   const Existing existing = args.force ? Existing::replace : Existing::refuse;
   checkOutput(args.out, existing);
@@ -75,9 +75,10 @@ void addExport(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("export", "Write a station's map for other programs, by the ending of OUT.");
   verb->add_option("STATION", args->station, "Station (.tvx)")->required();
-  verb->add_option("OUT", args->out,
-                   "Points, one a cell that holds a surface: .ply (CloudCompare), .pcd (PCL), .csv; "
-                   "OctoMap: .bt (occupancy), .ot (with temperature as colour); picture: .png")
+  verb->add_option(
+          "OUT", args->out,
+          "Points, one a cell that holds a surface: .ply (CloudCompare), .pcd (PCL), .las (LAS 1.4), .csv; "
+          "OctoMap: .bt (occupancy), .ot (with temperature as colour); picture: .png")
       ->required();
   verb->add_option("--span", args->span,
                    "Temperatures at the two ends of the palette, LO HI [C] (default: 2nd to 98th percentile)")

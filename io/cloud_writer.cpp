@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/las_writer.hpp"
 #include "io/little_endian.hpp"
 #include "projection/error.hpp"
 
@@ -117,8 +118,9 @@ void writeCloud(const std::filesystem::path& path, std::span<const SurfacePoint>
   const std::string ending = endingOf(path);
   if (ending == ".pcd") return writePcd(path, points, scale, existing);
   if (ending == ".ply") return writePly(path, points, scale, existing);
+  if (ending == ".las") return writeLas(path, points, scale, existing);
   if (ending == ".csv") return writeCloudCsv(path, points, scale, existing);
-  throw ConfigError(path.string() + ": the ending is '" + ending + "', expected .pcd, .ply or .csv");
+  throw ConfigError(path.string() + ": the ending is '" + ending + "', expected .pcd, .ply, .las or .csv");
 }
 
 }  // namespace thermovox

@@ -37,7 +37,8 @@ void writePly(const std::filesystem::path& path, std::span<const SurfacePoint> p
 void writeCloudCsv(const std::filesystem::path& path, std::span<const SurfacePoint> points,
                    const ColourScale& scale, Existing existing);
 
-/// One of the above by the path's ending (.pcd .ply .csv). Throws ConfigError for another one.
+/// One of the above, or writeLas() of las_writer.hpp, by the path's ending (.pcd .ply .csv .las). Throws
+/// ConfigError for another one.
 void writeCloud(const std::filesystem::path& path, std::span<const SurfacePoint> points,
                 const ColourScale& scale, Existing existing);
 

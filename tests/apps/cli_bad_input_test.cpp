@@ -210,7 +210,7 @@ TEST_F(BadInput, AFullDisk) {
   EXPECT_EQ(namesUnder(folder_.path()), before);
   ASSERT_EQ(map().code, 0);
   const std::set<std::string> with_station = namesUnder(folder_.path());
-  for (const char* name : {"map.ply", "map.pcd", "map.csv", "map.bt", "map.ot", "map.png"}) {
+  for (const char* name : {"map.ply", "map.pcd", "map.las", "map.csv", "map.bt", "map.ot", "map.png"}) {
     refused(std::string("export s.tvx ") + name, name);
   }
   refused("overlay hall pictures", "pictures");

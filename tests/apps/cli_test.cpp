@@ -83,7 +83,7 @@ TEST(Program, HelpAndErrorsShowTheWordsOfAChoice) {
   EXPECT_EQ(thermovox(folder.path(), "map hall --carve bravely").err,
             "thermovox: --carve: found 'bravely', expected careful|none|octomap\n");
   EXPECT_EQ(thermovox(folder.path(), "export s.tvx map.stl").err,
-            "thermovox: map.stl: the ending is '.stl', expected .ply, .pcd, .csv, .bt, .ot or .png\n");
+            "thermovox: map.stl: the ending is '.stl', expected .ply, .pcd, .las, .csv, .bt, .ot or .png\n");
 }
 
 TEST(Program, AFolderThatIsNotThereIsRefusedByEveryVerbInTheSameWords) {
@@ -161,6 +161,7 @@ TEST(ExportVerb, EveryEndingGivesItsKindOfFile) {
   const std::map<std::string, std::string> beginnings{{"map.ply", "ply\nformat binary_little_endian"},
                                                       {"map.pcd", "# .PCD v0.7"},
                                                       {"map.csv", "x,y,z"},
+                                                      {"map.las", "LASF"},
                                                       {"map.bt", "# Octomap OcTree binary file"},
                                                       {"map.ot", "# Octomap OcTree file"},
                                                       {"map.png", "\x89PNG"}};

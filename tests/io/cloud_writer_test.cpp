@@ -113,7 +113,7 @@ TEST(CloudWriter, NeverWritesWhite) {
 TEST(CloudWriter, RefusesOtherEndingsAndFilesThatAreThere) {
   const test::TestFolder folder;
   const auto message = test::messageOf<ConfigError>([&] { onDisk(folder / "map.obj"); });
-  EXPECT_THAT(message, HasSubstr("map.obj: the ending is '.obj', expected .pcd, .ply or .csv"));
+  EXPECT_THAT(message, HasSubstr("map.obj: the ending is '.obj', expected .pcd, .ply, .las or .csv"));
   folder.write("map.ply", "mine");
   EXPECT_THROW(writeCloud(folder / "map.ply", kPoints, {}, Existing::refuse), DataError);
   EXPECT_EQ(test::bytesOf(folder / "map.ply"), "mine");
