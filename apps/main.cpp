@@ -39,6 +39,8 @@ int run(int argc, char** argv) {
   thermovox::addSimulate(app);
   thermovox::addMap(app);
   thermovox::addMerge(app);
+  thermovox::addHotspots(app);
+  thermovox::addDiff(app);
   thermovox::addExport(app);
   thermovox::addImage(app);
   thermovox::addInfo(app);

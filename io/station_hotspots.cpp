@@ -1,0 +1,73 @@
+#include "io/station_hotspots.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/rig_file.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+Rig rigOf(const MissionRecord& mission, const Station& station) {
+  if (mission.rig.empty()) return {};
+  return parseRig(mission.rig, station.path().string() + ": the rig of mission '" + mission.name + "'");
+}
+
+/// Hot spots of one mission with all that it declares of its errors.
+std::vector<Hotspot> hotspotsOf(const SurfaceLayer& layer, const MissionRecord& mission, const Rig& rig,
+                                const HotspotCriteria& criteria) {
+  const CameraSharpness sharpness = rig.thermal_camera ? sharpnessOf(*rig.thermal_camera) : CameraSharpness{};
+  std::vector<Hotspot> spots = findHotspots(layer, criteria, sharpness);
+  for (const SharedMotion& motion : mission.shared_motions) {
+    if (motion.laser < rig.lasers.size()) continue;
+    throw DataError("the mission '" + mission.name + "' has returns of laser " +
+                    std::to_string(motion.laser) + ", expected less than the " +
+                    std::to_string(rig.lasers.size()) + " of its rig");
+  }
+  for (Hotspot& spot : spots) {
+    spot.position.common = sharedCovariance(spot.position.p_world, spot.normal, mission.shared_motions, rig,
+                                            mission.pose_sigmas);
+  }
+  return spots;
+}
+
+void add(StationHotspots& result, const Station& station, MissionRecord mission, const ThermalMap& map,
+         const HotspotCriteria& criteria) {
+  const SurfaceLayer& layer = *result.layers.emplace_back(std::make_unique<SurfaceLayer>(map));
+  const Rig rig = rigOf(mission, station);
+  result.history.add({mission.name, &layer, hotspotsOf(layer, mission, rig, criteria)});
+  result.missions.push_back(std::move(mission));
+}
+
+/// What an older program has left: all missions as one.
+MissionRecord allInOne(const std::vector<MissionRecord>& missions) {
+  MissionRecord all = missions.front();
+  for (std::size_t i = 1; i < missions.size(); ++i) {
+    all.name += ", " + missions[i].name;
+    if (missions[i].last) all.last = std::max(all.last.value_or(*missions[i].last), *missions[i].last);
+  }
+  all.shared_motions.clear();
+  return all;
+}
+
+}  // namespace
+
+StationHotspots stationHotspots(const Station& station, const HotspotCriteria& criteria) {
+  StationHotspots result;
+  const std::vector<MissionRecord> missions = station.missions();
+  for (std::size_t i = 0; i < missions.size(); ++i) {
+    if (const std::optional<ThermalMap> layer = station.loadLayer(i)) {
+      if (missions[i].coloured == 0 && layer->surfaceCount() == 0) continue;  // geometry only
+      add(result, station, missions[i], *layer, criteria);
+    } else {
+      result.without_layer.push_back(missions[i].name);
+    }
+  }
+  if (result.missions.empty() && !result.without_layer.empty()) {
+    add(result, station, allInOne(missions), station.loadMap(), criteria);
+  }
+  return result;
+}
+
+}  // namespace thermovox
