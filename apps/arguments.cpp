@@ -15,10 +15,10 @@ constexpr int kMostThreads = 1024;
 
 }  // namespace
 
-void addPalette(CLI::App& verb, Palette& palette) {
+CLI::Option* addPalette(CLI::App& verb, Palette& palette) {
   std::map<std::string, Palette> choices;
   for (const auto& [name, value] : namedPalettes()) choices.emplace(name, value);
-  addChoice(verb, "--palette", palette, choices, "Colours of the temperatures (default inferno)");
+  return addChoice(verb, "--palette", palette, choices, "Colours of the temperatures (default inferno)");
 }
 
 std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span) {
@@ -27,6 +27,12 @@ std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span) {
     throw UsageError("--span: expected two temperatures LO < HI, in C");
   }
   return TemperatureSpan{span[0], span[1]};
+}
+
+void refuseOptions(const std::vector<CLI::Option*>& options, const std::string& why) {
+  for (const CLI::Option* option : options) {
+    if (option->count() > 0) throw UsageError(option->get_name() + ": " + why);
+  }
 }
 
 void addThreadsOption(CLI::App& verb, int& threads) {

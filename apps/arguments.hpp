@@ -33,10 +33,13 @@ CLI::Option* addChoice(CLI::App& verb, const std::string& name, Target& value,
 }
 
 /// `--palette NAME`.
-void addPalette(CLI::App& verb, Palette& palette);
+CLI::Option* addPalette(CLI::App& verb, Palette& palette);
 
 /// `--span LO HI`. None where it was not given; throws UsageError unless both are finite and LO < HI.
 [[nodiscard]] std::optional<TemperatureSpan> spanFrom(const std::vector<double>& span);
+
+/// Throws UsageError, naming it, when one of these options was given: what it asks for would not be done.
+void refuseOptions(const std::vector<CLI::Option*>& options, const std::string& why);
 
 /// `--threads N`: 0, as where it is not given, for one for each processor; the help says so.
 void addThreadsOption(CLI::App& verb, int& threads);

@@ -28,6 +28,7 @@ struct ImageArgs {
   ScaleArgs scale;
   std::vector<double> span;
   std::vector<double> percentile{1.0, 99.9};
+  std::vector<CLI::Option*> of_pictures;  ///< options that say how a picture looks
   bool watched = false;
   ImageWatch watch;
 };
@@ -51,9 +52,13 @@ void checkUsage(ImageArgs& args) {
     throw UsageError("--watch: OUT lies in the folder that is watched; expected a folder elsewhere");
   if (job.counts && !writes_tiff) throw UsageError("--counts: OUT has to be a .tiff");
   if (job.all && !writes_tiff) throw UsageError("--all: OUT has to be a .tiff");
-  if (job.edges.wanted() && writes_tiff) throw UsageError("--edges, --visible: OUT has to be a .png or .jpg");
+  if (writes_tiff) {
+    refuseOptions(args.of_pictures,
+                  args.watched ? "--watch writes TIFFs without colours, expected --as png or --as jpg"
+                               : "OUT is a TIFF, which has no colours, expected a .png or .jpg");
+  }
   checkRadiometry(job.overrides);
-  if (job.counts && (job.overrides.any() || args.scale.celsius_per_count || !job.edges.rig.empty()))
+  if (job.counts && (job.overrides.any() || args.scale.celsius_per_count || !job.edges.by_rig.rig.empty()))
     throw UsageError("--counts: the counts are written as they are, whatever they mean; leave the rest out");
   const auto& [low, high] = std::pair(args.percentile[0], args.percentile[1]);
   if (!(low >= 0.0 && low < high && high <= 100.0))
@@ -71,7 +76,7 @@ std::optional<TLinear> scaleOfRig(const fs::path& file) {
 
 void runImage(ImageArgs& args) {
   checkUsage(args);
-  if (!args.job.edges.rig.empty()) args.job.rig_t_linear = scaleOfRig(args.job.edges.rig);
+  if (!args.job.edges.by_rig.rig.empty()) args.job.rig_t_linear = scaleOfRig(args.job.edges.by_rig.rig);
   if (args.watched) {
     args.watch.folder = args.in;
     args.watch.out_folder = args.out;
@@ -82,17 +87,19 @@ void runImage(ImageArgs& args) {
   }
 }
 
+/// Of pictures; a TIFF has none of it.
 void addLooks(CLI::App& verb, ImageArgs& args) {
-  addPalette(verb, args.job.palette);
+  CLI::Option* palette = addPalette(verb, args.job.palette);
   CLI::Option* span =
       verb.add_option("--span", args.span, "Temperatures at the two ends of the palette, LO HI [C]")
           ->expected(2);
-  verb.add_option(
-          "--percentile", args.percentile,
-          "The same as percentiles of the image, of what the camera is calibrated for, LO HI [0 to 100] "
-          "(default 1 99.9)")
-      ->expected(2)
-      ->excludes(span);
+  CLI::Option* percentile = verb.add_option("--percentile", args.percentile,
+                                            "The same as percentiles of the image, of what the camera is "
+                                            "calibrated for, LO HI [0 to 100] (default 1 99.9)")
+                                ->expected(2)
+                                ->excludes(span);
+  args.of_pictures = {palette, span, percentile};
+  for (CLI::Option* edges : addEdges(verb, args.job.edges)) args.of_pictures.push_back(edges);
 }
 
 void addWatch(CLI::App& verb, ImageArgs& args) {
@@ -155,7 +162,6 @@ void addImage(CLI::App& app) {
           ->check(CLI::NonNegativeNumber);
   verb->add_flag("--all", args->job.all, "All frames, as a TIFF of so many pages")->excludes(frame);
   addLooks(*verb, *args);
-  addEdges(*verb, args->job.edges);
   addWatch(*verb, *args);
   verb->add_flag_callback(
       "--force", [args] { args->job.existing = Existing::replace; }, "Replace OUT when it is there");

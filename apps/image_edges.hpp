@@ -1,30 +1,28 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "io/visible_edges.hpp"
+#include "io/picture_registration.hpp"
 
 namespace thermovox {
 
 /// Where the edges in a picture of a thermal image come from: a visible picture and a rig, or the file
 /// itself.
 struct EdgeArgs {
-  std::filesystem::path visible;
-  std::filesystem::path rig;
-  double range = 0.0;  ///< metres
+  PictureByRig by_rig;
   bool embedded = false;
 
-  [[nodiscard]] bool wanted() const { return embedded || !visible.empty(); }
+  [[nodiscard]] bool wanted() const { return embedded || !by_rig.visible.empty(); }
 };
 
-void addEdges(CLI::App& verb, EdgeArgs& args);
+/// Returns the two options that ask for edges.
+std::vector<CLI::Option*> addEdges(CLI::App& verb, EdgeArgs& args);
 
 /// The visible picture on the pixels of a thermal image; null where no edges are asked for. `name` stands for
-/// the thermal image in messages. Throws ConfigError for a rig without the two cameras and DataError for what
-/// is missing, damaged, of another size than the rig says, or looks elsewhere.
+/// the thermal image in messages. Throws as registerByRig() and registerByRecord() do.
 [[nodiscard]] std::shared_ptr<const RegisteredPicture> registeredPicture(const EdgeArgs& args,
                                                                          const RawThermalImage& thermal,
                                                                          const std::string& name);

@@ -12,12 +12,12 @@
 
 #include "apps/arguments.hpp"
 #include "apps/map_report.hpp"
-#include "apps/overlay_edges.hpp"
 #include "apps/progress.hpp"
 #include "apps/radiometry_options.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
 #include "io/mission_folder.hpp"
+#include "io/mission_pictures.hpp"
 #include "io/overlay_picture.hpp"
 #include "mapping/mission_mapper.hpp"
 #include "projection/error.hpp"
@@ -179,7 +179,7 @@ class OverlaySeries {
   AtomicFile table_;
   std::map<Time, FramePoints> gathered_;
   std::size_t frame_number_ = 0;
-  std::optional<OverlayEdges> edges_;
+  std::optional<MissionPictures> edges_;
   std::size_t pictures_ = 0;
   std::size_t with_edges_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "apps/arguments.hpp"
 #include "apps/simulate/mission_writer.hpp"
@@ -19,6 +20,7 @@ struct SimulateArgs {
   simulate::SimulationOptions options;
   fs::path out;
   bool force = false;
+  std::vector<CLI::Option*> of_rjpeg;  ///< options that only radiometric frames heed
 };
 
 const std::map<std::string, LaserKind> kLaserKinds{
@@ -76,16 +78,20 @@ void replaceMission(const simulate::SimulationOptions& options, const fs::path& 
   truth.discard();
 }
 
-void checkUsage(const simulate::SimulationOptions& options) {
+void checkUsage(const SimulateArgs& args) {
+  if (args.options.frames != simulate::FrameFormat::rjpeg)
+    refuseOptions(args.of_rjpeg,
+                  "--frames tiff stores temperatures as if there were no air, expected "
+                  "--frames rjpeg");
   try {
-    options.validate();
+    args.options.validate();
   } catch (const ConfigError& error) {
     throw UsageError(error.what());
   }
 }
 
 void runSimulate(const SimulateArgs& args) {
-  checkUsage(args.options);
+  checkUsage(args);
   checkFolderOf(withoutSlash(args.out));
   if (args.force) {
     replaceMission(args.options, args.out);
@@ -121,9 +127,11 @@ void addSimulate(CLI::App& app) {
   addChoice(*verb, "--frames", options.frames, kFrameFormats,
             "What the thermal camera stores: rjpeg (radiometric JPEGs, seen through the hall's air) or tiff "
             "(temperatures, as if there were no air) (default tiff)");
-  verb->add_option("--air", options.air, "Temperature of the air before radiometric frames [C]")
-      ->capture_default_str();
-  verb->add_option("--humidity", options.humidity, "Its relative humidity, 0 to 1")->capture_default_str();
+  args->of_rjpeg = {
+      verb->add_option("--air", options.air, "Temperature of the air, of --frames rjpeg [C]")
+          ->capture_default_str(),
+      verb->add_option("--humidity", options.humidity, "Its relative humidity, 0 to 1, likewise")
+          ->capture_default_str()};
   verb->add_flag_callback(
       "--visible", [&options] { options.visible = simulate::SimulationOptions::VisibleCamera::present; },
       "A visible camera beside the thermal one, 640 x 480: its pictures and its place in the rig");

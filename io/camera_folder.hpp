@@ -14,7 +14,8 @@ namespace thermovox {
 /// The images of a camera as they appear in its folder and the folders in it (DCIM/100FLIR, 101FLIR, ...):
 /// each once, when it is wholly written. The folder may vanish and come back, as a card does that is
 /// unmounted and mounted again, with other times of change (a card's clock has no time zone): what was given
-/// is not given again. A file whose content has changed is a new image.
+/// is not given again. A file whose content has changed is a new image; of files beyond 128 KiB that keep
+/// their size, the content is compared in 16 pieces from the first bytes to the last.
 class CameraFolder {
  public:
   enum class Order {
@@ -28,7 +29,8 @@ class CameraFolder {
     std::chrono::milliseconds settled = std::chrono::milliseconds(2000);
     /// The same for a file of which is known that somebody has changed it and not closed it.
     std::chrono::milliseconds settled_open = std::chrono::minutes(1);
-    /// How often to look where the kernel says nothing.
+    /// How often to look through all folders. Between, only the files that the kernel names are looked at;
+    /// where it says nothing, this is how long a new image stays unseen.
     std::chrono::milliseconds look_every = std::chrono::milliseconds(500);
     FolderEvents::Source events = FolderEvents::Source::kernel;
   };
@@ -63,9 +65,17 @@ class CameraFolder {
   };
   using WaitingImages = std::map<std::string, Waiting>;
 
+  /// What the kernel says until a file is whole, or until then.
+  [[nodiscard]] FolderEvents::Changes hear(Clock::time_point end);
+  /// Looks at these files, or through all folders when that is due or nothing else is to be done.
   void look(const FolderEvents::Changes& changes);
+  void lookThroughAll(const FolderEvents::Changes& changes);
   void lookAt(const std::filesystem::path& file, const FolderEvents::Changes& changes,
               WaitingImages& still_there);
+  /// nullopt where there is no file, or an empty one.
+  [[nodiscard]] static std::optional<State> stateOf(const std::filesystem::path& file);
+  /// Its path in the folder.
+  [[nodiscard]] std::string nameOf(const std::filesystem::path& file) const;
   [[nodiscard]] bool isReady(const Waiting& image) const;
   /// Of those that are ready the next by order; the end when none is.
   [[nodiscard]] WaitingImages::iterator nextReady();
@@ -76,6 +86,7 @@ class CameraFolder {
   Options options_;
   FolderEvents events_;
   Clock::time_point looked_;            ///< last
+  Clock::time_point looked_through_;    ///< all folders, last
   WaitingImages waiting_;               ///< by path in the folder
   std::map<std::string, Given> given_;  ///< likewise
 };

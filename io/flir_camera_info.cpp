@@ -32,8 +32,9 @@ class Fields {
   [[nodiscard]] std::optional<double> celsius(std::size_t offset) const {
     const auto kelvin = real(offset);
     constexpr double hottest = 1e4;  // beyond it a number is damaged
-    return kelvin && *kelvin > 0.0 && *kelvin < hottest ? std::optional(*kelvin + kAbsoluteZero)
-                                                        : std::nullopt;
+    if (!kelvin || !(*kelvin < hottest)) return std::nullopt;
+    const double celsius = *kelvin + kAbsoluteZero;
+    return celsius > kAbsoluteZero ? std::optional(celsius) : std::nullopt;
   }
   [[nodiscard]] std::string text(std::size_t offset, std::size_t length) const {
     return textAt(bytes_, offset, length);

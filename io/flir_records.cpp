@@ -68,12 +68,15 @@ struct Roughness {
   bool tells = false;  ///< both bytes vary; otherwise the steps say nothing about their order
 };
 
+constexpr int kRoughRows = 32;  // of which a picture's roughness is told
+
 Roughness roughnessOf(const CountsPicture& picture) {
   Roughness roughness;
   const auto width = static_cast<std::size_t>(picture.width);
   std::uint16_t any = 0;  // bits that are set somewhere, and those that are set everywhere
   std::uint16_t all = 0xFFFF;
-  for (std::size_t first = 0; first < picture.counts.size(); first += width) {
+  const std::size_t step = width * static_cast<std::size_t>(std::max(picture.height / kRoughRows, 1));
+  for (std::size_t first = 0; first < picture.counts.size(); first += step) {
     const std::uint16_t* row = picture.counts.data() + first;
     std::uint32_t as_it_is = 0;  // of 65535 pixels at most
     std::uint32_t swapped_row = 0;

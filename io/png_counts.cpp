@@ -2,6 +2,8 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -106,7 +108,7 @@ int paeth(int left, int up, int corner) {
   const int from_up = std::abs(left - corner);
   const int from_corner = std::abs(left + up - 2 * corner);
   const int of_two = from_up <= from_corner ? up : corner;  // both choices without a branch
-  const bool is_left = (from_left <= from_up) & (from_left <= from_corner);
+  const bool is_left = from_left <= std::min(from_up, from_corner);
   return is_left ? left : of_two;
 }
 
@@ -115,10 +117,15 @@ int paeth(int left, int up, int corner) {
 void unfilter(unsigned filter, std::span<std::uint8_t> row, std::span<const std::uint8_t> above,
               const std::string& what) {
   const auto undo = [&](auto&& guess) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const int left = i < 2 ? 0 : row[i - 2];
-      const int up_left = i < 2 ? 0 : above[i - 2];
-      row[i] = static_cast<std::uint8_t>(row[i] + guess(left, above[i], up_left));
+    std::array<int, 2> left{};  // of each byte of a pixel, as the byte above it
+    std::array<int, 2> corner{};
+    for (std::size_t i = 0; i + 1 < row.size(); i += 2) {
+      for (std::size_t byte = 0; byte < 2; ++byte) {
+        const int up = above[i + byte];
+        left[byte] = (row[i + byte] + guess(left[byte], up, corner[byte])) & 0xFF;
+        row[i + byte] = static_cast<std::uint8_t>(left[byte]);
+        corner[byte] = up;
+      }
     }
   };
   switch (filter) {

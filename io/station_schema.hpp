@@ -8,9 +8,9 @@
 namespace thermovox {
 
 /// Version of what this program writes. Older ones are read as they are, and become of this one when a
-/// mission is added; later ones are refused. Version 1 had other surface cells (tile_layout_1.hpp) and no
-/// column T_world_mission.
-inline constexpr std::int64_t kStationSchema = 2;
+/// mission is added; later ones are refused. Version 2 had surface cells without a common sigma;
+/// version 1 had other ones altogether (tile_layout_1.hpp) and no column T_world_mission.
+inline constexpr std::int64_t kStationSchema = 3;
 
 /// Makes the empty tables of a station. What goes into a station is written in one order: missions, tiles,
 /// meta.

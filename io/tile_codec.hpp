@@ -14,8 +14,8 @@ namespace thermovox {
 [[nodiscard]] std::string encodeTile(std::span<const BlockView> blocks);
 [[nodiscard]] std::string encodeTile(const TileBlocks& blocks);
 
-/// Reads what encodeTile wrote, now or in a station of version 1. Throws DataError saying what is wrong with
-/// the bytes, of which nothing is trusted.
+/// Reads what encodeTile wrote, now or in a station of version 1 or 2. Throws DataError saying what is wrong
+/// with the bytes, of which nothing is trusted.
 [[nodiscard]] TileBlocks decodeTile(const TileKey& key, std::string_view bytes);
 
 }  // namespace thermovox

@@ -74,6 +74,11 @@ GrazingView grazingView(const Eigen::Vector3f& normal, const SeenSurface& seen, 
   return {std::acos(cosine), emissivityLoss(cosine) * difference};
 }
 
+Colour distrusted(Colour colour, const GrazingView& grazing) {
+  colour.sigma = std::hypot(colour.sigma, grazing.sigma);
+  return colour;
+}
+
 double reflectedTemperature(const ThermalImage& image, const std::optional<double>& ambient) {
   if (image.air) return image.air->parameters().reflected;
   return ambient.value_or(RadiometricParameters{}.reflected);
@@ -102,22 +107,34 @@ std::vector<Eigen::Vector3f> readingNormals(std::span<const PlacedReturn> return
   return normals;
 }
 
-std::vector<float> distrustGrazing(std::span<const PlacedReturn> returns,
-                                   std::span<std::optional<FrameColour>> found,
-                                   const GrazingOptions& options) {
-  const std::vector<Eigen::Vector3f> normals =
-      readingNormals(returns, found, options.edge, options.range_sigma);
-  std::vector<float> incidences(returns.size(), std::numeric_limits<float>::quiet_NaN());
+Eigen::Vector3f trustedNormal(const SceneSurface& surface, double range_sigma) {
+  return surface.width > kLeastWidth * range_sigma ? surface.normal : Eigen::Vector3f::Zero();
+}
+
+std::vector<Eigen::Vector3f> sceneNormals(std::span<const PlacedReturn> returns,
+                                          std::span<const std::optional<FrameColour>> found,
+                                          SceneSurfaces& scene, double range_sigma) {
+  std::vector<Eigen::Vector3f> normals(returns.size(), Eigen::Vector3f::Zero());
   for (std::size_t i = 0; i < returns.size(); ++i) {
-    if (!found[i] || normals[i].isZero()) continue;
-    Colour& colour = found[i]->colour;
-    const ThermalView& view = *found[i]->view;
-    const GrazingView grazing = grazingView(normals[i], {returns[i].p_world, colour.celsius}, view,
-                                            reflectedTemperature(*view.frame.image, options.ambient));
-    colour.sigma = std::hypot(colour.sigma, grazing.sigma);
-    incidences[i] = grazing.incidence;
+    if (!found[i]) continue;
+    if (const SceneSurface* surface = scene.surfaceAt(returns[i].p_world))
+      normals[i] = trustedNormal(*surface, range_sigma);
   }
-  return incidences;
+  return normals;
+}
+
+std::vector<GrazingView> grazingViews(std::span<const PlacedReturn> returns,
+                                      std::span<const std::optional<FrameColour>> found,
+                                      std::span<const Eigen::Vector3f> normals,
+                                      const std::optional<double>& ambient) {
+  std::vector<GrazingView> views(returns.size());
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    if (!found[i]) continue;
+    const ThermalView& view = *found[i]->view;
+    views[i] = grazingView(normals[i], {returns[i].p_world, found[i]->colour.celsius}, view,
+                           reflectedTemperature(*view.frame.image, ambient));
+  }
+  return views;
 }
 
 }  // namespace thermovox

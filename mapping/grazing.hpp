@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mapping/frame_window.hpp"
+#include "mapping/scene_surfaces.hpp"
 #include "projection/placement.hpp"
 
 namespace thermovox {
@@ -13,7 +14,9 @@ namespace thermovox {
 /// What a temperature is worth, for the angle at which its surface was seen.
 struct GrazingView {
   float incidence = std::numeric_limits<float>::quiet_NaN();  ///< from the normal, radians; NaN unknown
-  float sigma = 0.0F;  ///< of what emissivityLoss() takes from the temperature, C; 0 where unknown
+  /// Of what emissivityLoss() takes from the temperature, C; 0 where unknown. An error that all views at that
+  /// angle have in common, and no noise: TemperatureObservation::common_sigma.
+  float sigma = 0.0F;
 };
 
 struct SeenSurface {
@@ -28,6 +31,9 @@ struct SeenSurface {
 [[nodiscard]] GrazingView grazingView(const Eigen::Vector3f& normal, const SeenSurface& seen,
                                       const ThermalView& view, double reflected);
 
+/// The colour with all in its sigma that a single temperature of that view may be off by.
+[[nodiscard]] Colour distrusted(Colour colour, const GrazingView& grazing);
+
 /// What the surroundings of a frame's objects have for a temperature, C: as the frame's radiometry says, else
 /// the mission's air, else what cameras assume.
 [[nodiscard]] double reflectedTemperature(const ThermalImage& image, const std::optional<double>& ambient);
@@ -41,16 +47,21 @@ struct SeenSurface {
                                                           std::span<const std::optional<FrameColour>> found,
                                                           double edge, double range_sigma);
 
-/// What the mapper knows beside a reading.
-struct GrazingOptions {
-  double edge;                    ///< of the cubes of readingNormals, metres
-  double range_sigma;             ///< metres
-  std::optional<double> ambient;  ///< of the mission, C
-};
+/// The surface's normal; zero also where its plane is narrow as in readingNormals: neighbours that lie along
+/// one line of a scanner make a plane of that line and their noise.
+[[nodiscard]] Eigen::Vector3f trustedNormal(const SceneSurface& surface, double range_sigma);
 
-/// Puts what grazing views are worth into the sigmas of a reading's colours. Returns their incidences.
-[[nodiscard]] std::vector<float> distrustGrazing(std::span<const PlacedReturn> returns,
-                                                 std::span<std::optional<FrameColour>> found,
-                                                 const GrazingOptions& options);
+/// The normals of a reading's coloured points in a scene whose geometry is known, for any laser:
+/// trustedNormal of the surface in the cell of each; zero for all others.
+[[nodiscard]] std::vector<Eigen::Vector3f> sceneNormals(std::span<const PlacedReturn> returns,
+                                                        std::span<const std::optional<FrameColour>> found,
+                                                        SceneSurfaces& scene, double range_sigma);
+
+/// The views of a reading's points, by their normals; unknown for those without colour. `ambient` is the
+/// mission's, C.
+[[nodiscard]] std::vector<GrazingView> grazingViews(std::span<const PlacedReturn> returns,
+                                                    std::span<const std::optional<FrameColour>> found,
+                                                    std::span<const Eigen::Vector3f> normals,
+                                                    const std::optional<double>& ambient);
 
 }  // namespace thermovox

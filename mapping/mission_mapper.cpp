@@ -50,14 +50,15 @@ double widestRangeSigma(const Rig& rig) {
 }
 
 MappedReturn mappedReturn(const PlacedReturn& placed, const std::optional<FrameColour>& found,
-                          float incidence) {
+                          const GrazingView& grazing) {
   MappedReturn mapped{placed.p_world, placed.origin_world, placed.stamp, std::nullopt};
   if (found) {
     mapped.temperature =
         TemperatureObservation{.celsius = found->colour.celsius,
                                .sigma = found->colour.sigma * static_cast<float>(found->sample),
                                .range = found->colour.range,
-                               .incidence = incidence};
+                               .incidence = grazing.incidence,
+                               .common_sigma = grazing.sigma};
   }
   return mapped;
 }
@@ -217,19 +218,26 @@ void MissionMapper::mapReading(const WaitingReading& reading) {
   found.reserve(reading.returns.size());
   for (std::size_t i = 0; i < reading.returns.size(); ++i)
     found.push_back(counted(frames_ ? answers[i] : Uncoloured::no_camera));
-  const std::vector<float> incidences =
-      distrustGrazing(reading.returns, found,
-                      {kBlockEdge * map_.resolution(), widestRangeSigma(mission_.rig), mission_.ambient});
+  const std::vector<GrazingView> grazing =
+      grazingViews(reading.returns, found, normalsOf(reading.returns, found), mission_.ambient);
   for (std::size_t i = 0; i < reading.returns.size(); ++i) {
     const PlacedReturn& placed = reading.returns[i];
-    mapped.push_back(mappedReturn(placed, found[i], incidences[i]));
-    coloured.push_back({placed, found[i] ? std::optional(found[i]->colour) : std::nullopt});
+    mapped.push_back(mappedReturn(placed, found[i], grazing[i]));
+    coloured.push_back(
+        {placed, found[i] ? std::optional(distrusted(found[i]->colour, grazing[i])) : std::nullopt});
     report_.first_stamp = std::min(report_.first_stamp.value_or(placed.stamp), placed.stamp);
     report_.last_stamp = std::max(report_.last_stamp.value_or(placed.stamp), placed.stamp);
   }
   report_.points += mapped.size();
   addToMap(mapped);
   if (sink_) sink_(coloured);
+}
+
+std::vector<Eigen::Vector3f> MissionMapper::normalsOf(
+    std::span<const PlacedReturn> returns, std::span<const std::optional<FrameColour>> found) const {
+  const double range_sigma = widestRangeSigma(mission_.rig);
+  if (options_.pass != Pass::only) return sceneNormals(returns, found, *options_.scene, range_sigma);
+  return readingNormals(returns, found, kBlockEdge * map_.resolution(), range_sigma);
 }
 
 void MissionMapper::addToMap(std::span<const MappedReturn> reading) {

@@ -34,7 +34,8 @@ struct ColouredReturn {
 /// stamp.
 ///
 /// Returns that one pixel of one frame colours share its noise, so that the map takes the k-th of them with k
-/// times its sigma: together they weigh less than 1.65 of the first.
+/// times its sigma: together they weigh less than 1.65 of the first. What the angle of the view costs a
+/// temperature (GrazingView) is told apart, as no noise; the sink's colours have all in their sigmas.
 ///
 /// Mapped in two passes, a mission's geometry comes first (mapMission without frames, into the same map). The
 /// second pass adds no geometry: it tests the colours against the whole scene (SceneView), and may paint
@@ -88,6 +89,9 @@ class MissionMapper {
   [[nodiscard]] double viewRange(const ThermalView& view) const;
   void countPainted();
   void mapReading(const WaitingReading& reading);
+  /// Of the coloured points: from the scene, where it is known, else from one another.
+  [[nodiscard]] std::vector<Eigen::Vector3f> normalsOf(
+      std::span<const PlacedReturn> returns, std::span<const std::optional<FrameColour>> found) const;
   void addToMap(std::span<const MappedReturn> reading);
   [[nodiscard]] std::optional<FrameColour> counted(const std::variant<FrameColour, Uncoloured>& answer);
   [[nodiscard]] Time earliestWaiting(Time now) const;

@@ -1,7 +1,6 @@
 #include "mapping/painting.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <vector>
 
@@ -44,12 +43,13 @@ void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView
   for (std::size_t i = 0; i < colours.size(); ++i) {
     if (colours[i].outcome != PointColour::Outcome::coloured) continue;
     const SceneSurface& surface = *surfaces[i];
-    const GrazingView grazing =
-        grazingView(surface.normal, {surface.p_world, colours[i].celsius}, view, reflected);
+    const GrazingView grazing = grazingView(trustedNormal(surface, options.range_sigma),
+                                            {surface.p_world, colours[i].celsius}, view, reflected);
     const TemperatureObservation observation{.celsius = colours[i].celsius,
-                                             .sigma = std::hypot(colours[i].sigma, grazing.sigma),
+                                             .sigma = colours[i].sigma,
                                              .range = colours[i].range,
-                                             .incidence = grazing.incidence};
+                                             .incidence = grazing.incidence,
+                                             .common_sigma = grazing.sigma};
     map.observe(surfaces[i]->key, observation, view.frame.stamp);
   }
 }

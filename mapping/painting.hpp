@@ -23,9 +23,9 @@ struct PaintOptions {
 /// gets one observation in its cell of `map`, at the mean position of the cell's returns. Its sigma is that
 /// of a laser point whose position is unsure by range_sigma and by the spread of a surface within
 /// its cell (edge^2 / 12 an axis): a cell on an edge of temperatures, or wider than a pixel, distrusts
-/// itself. The incidence is that on the plane of the neighbouring cells, and a grazing one is distrusted
-/// (GrazingView). Cells that one pixel paints share
-/// its noise; a cell gets at most one observation from a frame.
+/// itself. The incidence is that on the plane of the neighbouring cells, and what a grazing one is worth is
+/// the observation's common sigma (GrazingView). Cells that one pixel paints share its noise; a cell gets at
+/// most one observation from a frame.
 void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView& scene_view,
            const PaintOptions& options, ThermalMap& map);
 

@@ -31,15 +31,15 @@ class Neighbourhood {
     points_.push_back(surface.p_world);
   }
 
-  /// Normal of the plane through the surfaces within `reach` cells; zero where they are too few or no plane.
-  [[nodiscard]] Eigen::Vector3f normalAt(const SceneSurface& surface) const {
+  /// The plane through the surfaces within `reach` cells; none where they are too few or no plane.
+  [[nodiscard]] LocalPlane planeAt(const SceneSurface& surface) const {
     for (int reach = 1; reach <= kReach; ++reach) {
       PointSums sums;
       forEachAround(surface.key, reach,
                     [&](const Eigen::Vector3d& p_world) { sums.add(p_world - surface.p_world); });
-      if (sums.count >= kFewest) return localPlane(sums).normal;
+      if (sums.count >= kFewest) return localPlane(sums);
     }
-    return Eigen::Vector3f::Zero();
+    return {};
   }
 
  private:
@@ -107,6 +107,17 @@ std::span<const SceneSurface> SceneSurfaces::surfacesOf(const TileKey& key) {
   return place->second.surfaces;
 }
 
+const SceneSurface* SceneSurfaces::surfaceAt(const Eigen::Vector3d& p_world) {
+  const CellPlace place = placeOf(cellKey(p_world, 1.0 / resolution()));
+  if (!std::binary_search(keys_.begin(), keys_.end(), place.tile)) return nullptr;
+  const std::span<const SceneSurface> surfaces = surfacesOf(place.tile);
+  const auto found = std::lower_bound(surfaces.begin(), surfaces.end(), place.in_tile,
+                                      [](const SceneSurface& surface, std::uint32_t in_tile) {
+                                        return placeOf(surface.key).in_tile < in_tile;
+                                      });
+  return found != surfaces.end() && found->key == place.key() ? &*found : nullptr;
+}
+
 void SceneSurfaces::forgetUnused() {
   std::erase_if(tiles_, [this](const auto& tile) { return tile.second.view + kViewsKept < view_; });
   ++view_;
@@ -157,7 +168,11 @@ std::vector<SceneSurface> SceneSurfaces::gather(const TileKey& key) const {
   }
   for (const SceneSurface& surface : surfaces) neighbourhood.add(surface);
   for (const SceneSurface& surface : around) neighbourhood.add(surface);
-  for (SceneSurface& surface : surfaces) surface.normal = neighbourhood.normalAt(surface);
+  for (SceneSurface& surface : surfaces) {
+    const LocalPlane plane = neighbourhood.planeAt(surface);
+    surface.normal = plane.normal;
+    surface.width = static_cast<float>(std::sqrt(plane.width2));
+  }
   return surfaces;
 }
 

@@ -18,6 +18,7 @@ struct SceneSurface {
   Eigen::Vector3d p_world;  ///< mean of the cell's returns, metres
   Eigen::Vector3f normal;   ///< of the plane through its neighbours, unit, sign arbitrary; zero: no plane
   CellKey key;
+  float width = 0.0F;  ///< of that plane: standard deviation of the points along its shorter axis, metres
 };
 
 /// The whole geometry that a second look is taken at: the surfaces of one or several maps together, without
@@ -34,6 +35,10 @@ class SceneSurfaces {
 
   [[nodiscard]] double resolution() const { return maps_.front()->resolution(); }
 
+  /// The surface in the cell that holds the point (metres, within what cell keys reach); null where there is
+  /// none. Valid until the next view.
+  [[nodiscard]] const SceneSurface* surfaceAt(const Eigen::Vector3d& p_world);
+
   /// Calls visit(surface) for the surfaces of all tiles that reach into a camera's view, nearer than `range`
   /// (metres from the camera), in the order of their tiles' keys. It visits surfaces around the view too.
   template <typename Visitor>
@@ -46,8 +51,8 @@ class SceneSurfaces {
 
  private:
   struct Tile {
-    std::vector<SceneSurface> surfaces;
-    std::uint64_t view = 0;  ///< the last one that needed it
+    std::vector<SceneSurface> surfaces;  ///< in the order of their blocks in the tile, and cells in the block
+    std::uint64_t view = 0;              ///< the last one that needed it
   };
   [[nodiscard]] std::vector<TileKey> tilesInView(const Camera& camera, const Pose& T_camera_world,
                                                  double range) const;

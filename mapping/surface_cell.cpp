@@ -25,6 +25,8 @@ constexpr double kIncidenceSteps = 100.0;      // a radian
 constexpr std::uint64_t kMostIncidence = 157;  // a right angle
 constexpr double kUnknownCosine = 0.5;         // an unknown incidence counts as 60 degrees
 constexpr std::int64_t kFirstStamp = -(std::int64_t{1} << 62);  // stamps lie within +-2^62 ns of 1970
+constexpr double kCommonSteps = 2048.0;                         // a degree, under the root
+constexpr double kMostCommon = 255.0;
 constexpr int kLastShift = 15, kFirstShift = 31;
 
 /// Nanoseconds from kFirstStamp, at most 2^63 - 1.
@@ -51,6 +53,21 @@ std::uint8_t incidenceCode(float incidence) {
   if (!std::isfinite(incidence)) return SurfaceCell::kUnknownIncidence;
   return static_cast<std::uint8_t>(
       std::clamp(incidence * kIncidenceSteps + 0.5, 0.0, static_cast<double>(kMostIncidence)));
+}
+
+/// A common sigma, C, by its code: squares, so that it is exact and fine where it is small.
+double commonOf(std::uint64_t code) {
+  return static_cast<double>(code * code) / kCommonSteps;
+}
+std::uint64_t commonCode(double sigma) {
+  return static_cast<std::uint64_t>(std::min(std::sqrt(std::abs(sigma) * kCommonSteps) + 0.5, kMostCommon));
+}
+
+/// What an observation of these sigmas weighs, before it is guarded.
+double weightOf(double sigma, double common) {
+  constexpr double least = SurfaceCell::kMinSigma * SurfaceCell::kMinSigma;
+  constexpr double most = SurfaceCell::kMaxSigma * SurfaceCell::kMaxSigma;
+  return kWeightSteps / std::clamp(sigma * sigma + SurfaceCell::kCommonViews * common * common, least, most);
 }
 
 /// Cosines of the incidence codes, in 2^-40.
@@ -81,15 +98,18 @@ bool isBetterView(std::uint64_t range_a, std::uint64_t incidence_a, std::uint64_
 
 /// Adds observations; of two too many for one cell the busier one's stand, ties by the sums.
 inline void SurfaceCell::takeSums(const Sums& other) {
-  const Sums own{observations, weight_sum, weighted_sum, weighted_square_sum};
+  const Sums own{observations, weight_sum, weighted_sum, weighted_square_sum, common_code};
+  const std::uint64_t least =
+      own.observations == 0 ? other.common_code : std::min(own.common_code, other.common_code);
   const bool fits = own.observations + other.observations <= kMaxObservations;
   const Sums sums = fits ? Sums{own.observations + other.observations, own.weight + other.weight,
-                                own.weighted + other.weighted, own.square + other.square}
+                                own.weighted + other.weighted, own.square + other.square, least}
                          : std::max(own, other);
   observations = sums.observations;
   weight_sum = sums.weight;
   weighted_sum = sums.weighted;
   weighted_square_sum = sums.square;
+  common_code = sums.common_code;
 }
 
 /// To be called before the observations are added.
@@ -106,26 +126,33 @@ inline void SurfaceCell::takeExtremes(const Extremes& other) {
 }
 
 void checkFinite(const TemperatureObservation& observation) {
-  if (std::isfinite(observation.celsius) && std::isfinite(observation.sigma)) return;
+  if (std::isfinite(observation.celsius) && std::isfinite(observation.sigma) &&
+      std::isfinite(observation.common_sigma)) {
+    return;
+  }
   throw DataError("a temperature of " + std::to_string(observation.celsius) + " C with sigma " +
-                  std::to_string(observation.sigma) + " C came to the map, expected finite numbers");
+                  std::to_string(observation.sigma) + " C and common sigma " +
+                  std::to_string(observation.common_sigma) + " C came to the map, expected finite numbers");
 }
 
-double SurfaceCell::guardedShare(double celsius, double sigma) const {
+double SurfaceCell::guardedShare(double celsius, double variance) const {
   if (observations < kGuardAfter) return 1.0;
   const double off = std::abs(celsius - mean());
   // Most are within the narrowest guard there is: the spread need not be known.
-  const double narrowest = kGuardSigmas * kGuardSigmas * (sigma * sigma + kGuardFloor * kGuardFloor);
+  const double narrowest = kGuardSigmas * kGuardSigmas * (variance + kGuardFloor * kGuardFloor);
   if (off * off <= narrowest) return 1.0;
   const double widest = std::max(spread(), kGuardFloor);
-  return std::min(1.0, kGuardSigmas * std::sqrt(sigma * sigma + widest * widest) / off);
+  const double common = commonSigma();
+  return std::min(1.0, kGuardSigmas * std::sqrt(variance + common * common + widest * widest) / off);
 }
 
 void SurfaceCell::addTemperature(const TemperatureObservation& observation, Time stamp) {
   checkFinite(observation);
   const double celsius = std::clamp<double>(observation.celsius, kMinCelsius, kMaxCelsius);
   const double sigma = std::clamp<double>(observation.sigma, kMinSigma, kMaxSigma);
-  const double weight = kWeightSteps / (sigma * sigma) * guardedShare(celsius, sigma);
+  const std::uint64_t common_steps = commonCode(observation.common_sigma);
+  const double common = commonOf(common_steps);
+  const double weight = weightOf(sigma, common) * guardedShare(celsius, sigma * sigma + common * common);
   const auto w = static_cast<std::uint64_t>(std::max(weight + 0.5, 1.0));
   const auto t = static_cast<std::uint64_t>((celsius - kZeroCelsius) * kTemperatureSteps + 0.5);
   constexpr std::uint64_t half = std::uint64_t{1} << (kSquareShift - 1);
@@ -137,7 +164,7 @@ void SurfaceCell::addTemperature(const TemperatureObservation& observation, Time
                 .last_code = from_zero >> kLastShift,
                 .range_cm = rangeCode(observation.range),
                 .incidence = incidenceCode(observation.incidence)});
-  takeSums({1, w, w * t, (w * (t * t) + half) >> kSquareShift});
+  takeSums({1, w, w * t, (w * (t * t) + half) >> kSquareShift, common_steps});
 }
 
 void SurfaceCell::merge(const SurfaceCell& other) {
@@ -154,7 +181,8 @@ void SurfaceCell::merge(const SurfaceCell& other) {
   if (other.observations == 0) return;
   takeExtremes({other.min_code, other.max_code, other.first_code, other.last_code, other.best_range_cm,
                 other.best_incidence});
-  takeSums({other.observations, other.weight_sum, other.weighted_sum, other.weighted_square_sum});
+  takeSums({other.observations, other.weight_sum, other.weighted_sum, other.weighted_square_sum,
+            other.common_code});
 }
 
 bool SurfaceCell::isPlausible() const {
@@ -170,7 +198,7 @@ bool SurfaceCell::isPlausible() const {
 }
 
 bool SurfaceCell::hasPlausibleTemperature() const {
-  constexpr auto most_weight = static_cast<std::uint64_t>(kWeightSteps / (kMinSigma * kMinSigma) + 0.5);
+  const auto most_weight = static_cast<std::uint64_t>(weightOf(kMinSigma, commonSigma()) + 0.5);
   constexpr auto most_first = (std::uint64_t{1} << 32) - 1;
   if (observations > kMaxObservations) return false;
   if (weight_sum < observations || weight_sum > observations * most_weight) return false;
@@ -205,13 +233,19 @@ double SurfaceCell::mean() const {
 }
 
 double SurfaceCell::sigmaOfMean() const {
-  const double own = kWeightSteps / static_cast<double>(weight_sum);
-  const double scatter = spread() * spread();
   const auto number = static_cast<double>(observations);
-  const double unexplained = std::max(scatter - kExplainedSpread * kExplainedSpread * number * own, 0.0);
+  const double common = commonSigma() * commonSigma();
+  const double own =
+      std::max(number * kWeightSteps / static_cast<double>(weight_sum) - kCommonViews * common, 0.0);
+  const double scatter = spread() * spread();
+  const double unexplained = std::max(scatter - kExplainedSpread * kExplainedSpread * own, 0.0);
   const double apart = maxCelsius() - minCelsius();
   const double off = 0.5 * (apart - std::sqrt(std::max(apart * apart - 4.0 * unexplained, 0.0)));
-  return std::sqrt(std::max(own, scatter / number) + off * off);
+  return std::sqrt(std::max(own, scatter) / number + common + off * off);
+}
+
+double SurfaceCell::commonSigma() const {
+  return commonOf(common_code);
 }
 
 double SurfaceCell::meanSquare() const {

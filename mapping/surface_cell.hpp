@@ -18,12 +18,15 @@ struct TemperatureObservation {
   float sigma = 0.0F;      ///< one standard deviation, C; the camera's common bias is not in it
   float range = 0.0F;      ///< camera to point, metres
   float incidence = 0.0F;  ///< angle between the line of sight and the surface's normal, radians; NaN unknown
+  /// Of the error that this and all other views at its angle have in common (GrazingView), one sigma, C,
+  /// beside `sigma`: it does not shrink with their number.
+  float common_sigma = 0.0F;
 };
 
-/// Throws DataError unless temperature and sigma are finite.
+/// Throws DataError unless temperature and sigmas are finite.
 void checkFinite(const TemperatureObservation& observation);
 
-/// What a cell knows of the surface in it, in 57 bytes. All sums are integers in fixed point, so that adding
+/// What a cell knows of the surface in it, in 58 bytes. All sums are integers in fixed point, so that adding
 /// is exact and the result does not depend on the order (West's and Chan's updates would, in the last bits).
 /// observations == 0 is the ONLY test for "no temperature": 0 C is one.
 ///
@@ -33,10 +36,16 @@ void checkFinite(const TemperatureObservation& observation);
 /// observations w adds up to less than 2^43.3 (6 bytes), w t to less than 2^63.97 and w t^2 / 2^21 to less
 /// than 2^63.7 (8 bytes each). What w t^2 is rounded by is at most 4 C^2 / w, 0.4 % of sigma^2, and without
 /// bias.
+///
+/// An error that views at one angle have in common does not average out: of n such observations each is worth
+/// 1 / (sigma^2 + n common_sigma^2). How many will come is not known when the first is weighed, and merging
+/// must be exact; so n is kCommonViews. Hence one view without it stands against many that have it. It is
+/// taken to the nearest c^2 / 2^11 C with c up to 255, and the cell keeps the least there was.
 struct SurfaceCell {
   static constexpr double kMinCelsius = -273.15, kMaxCelsius = 3000.0;
   static constexpr double kOffsetSteps = 256.0;  ///< in an edge
   static constexpr double kMinSigma = 0.02, kMaxSigma = 32.0;
+  static constexpr double kCommonViews = 16.0;
   /// Returns after which a cell's mean position stands still (its sums hold no more).
   static constexpr std::uint32_t kMaxReturns = (1U << 24) - 1;
   /// Observations after which its temperature does: five days without a pause at 9 Hz.
@@ -61,6 +70,7 @@ struct SurfaceCell {
   PackedInteger<2> max_code;      ///< highest
   PackedInteger<2> best_range_cm;
   PackedInteger<1> best_incidence;  ///< 1/100 radians; kUnknownIncidence
+  PackedInteger<1> common_code;     ///< least common sigma, as the root of its steps of 2^-11 C
 
   static constexpr std::uint8_t kUnknownIncidence = 0xFF;
 
@@ -74,12 +84,13 @@ struct SurfaceCell {
     returns += 1;
   }
 
-  /// Adds one temperature with weight 1 / sigma^2 and Huber's guard against the cell's own statistics, which
-  /// must be of the same mission: once four observations are in, one that is more than 2.5 standard
-  /// deviations off the mean is weighted down in proportion, so that a passer-by or a glint does not move the
-  /// cell. Hence this, unlike merge(), depends on the order. The standard deviation is that of the
-  /// observation and of the cell's spread (at least 0.1 C) together. Throws DataError when the temperature or
-  /// its sigma is not finite.
+  /// Adds one temperature with weight 1 / (sigma^2 + kCommonViews common_sigma^2), in the place of
+  /// 1 / sigma^2 above, and Huber's guard against the cell's own statistics, which must be of the same
+  /// mission: once four observations are in, one that is more than 2.5 standard deviations off the mean is
+  /// weighted down in proportion, so that a passer-by or a glint does not move the cell. Hence this, unlike
+  /// merge(), depends on the order. The standard deviation is that of the observation, of what it and the
+  /// cell have in common with others, and of the cell's spread (at least 0.1 C) together. Throws DataError
+  /// when the temperature or a sigma is not finite.
   void addTemperature(const TemperatureObservation& observation, Time stamp);
 
   /// Adds another mission's statistics of the same cell: exact, in any order and grouping, the mean position
@@ -96,19 +107,24 @@ struct SurfaceCell {
   [[nodiscard]] Eigen::Vector3d meanOffset() const;
   /// Weighted mean, C. Precondition for this and all below: observations > 0.
   [[nodiscard]] double mean() const;
-  /// Standard deviation of the mean, C; the camera's common bias apart. With W the sum of the weights
-  /// 1 / sigma^2, n the observations and s their spread():
+  /// Standard deviation of the mean, C; the camera's common bias apart. With W the sum of the weights,
+  /// n the observations, s their spread(), f the commonSigma() and m = kCommonViews:
   ///
-  ///   sqrt(max(1 / W, s^2 / n) + b^2),  b = (D - sqrt(D^2 - 4 e^2)) / 2,  D = max - min,
-  ///   e^2 = max(s^2 - 4 n / W, 0).
+  ///   sqrt(max(v / n, s^2 / n) + f^2 + b^2),  v = max(n / W - m f^2, 0),
+  ///   b = (D - sqrt(D^2 - 4 e^2)) / 2,  D = max - min,  e^2 = max(s^2 - 4 v, 0).
   ///
-  /// 1 / W is what the observations' own sigmas promise; where they scatter more than that, s^2 / n widens it
+  /// n / W is the mean variance that the weights stand for, m f^2 of it at least common, so that v is what is
+  /// independent, and f^2 enters once: n alike have sigma^2 / n + f^2. Observations with more in common than
+  /// f add some of that to v, which is more than they shift the mean by, because they weigh so little.
+  /// v / n is what the observations' own sigmas promise; where they scatter more than that, s^2 / n widens it
   /// by their Birge ratio, as the Particle Data Group does (Review of Particle Physics, Introduction; there
   /// with n - 1). Both take the errors for independent. Once the spread is more than twice what the sigmas
   /// explain (e > 0), that is no longer to be believed: something else stood there for a while, or the cell
   /// holds two surfaces, and more observations do not bring the mean nearer to either. b is how far a mean
   /// lies from the larger of two populations that are D apart and spread it by e.
   [[nodiscard]] double sigmaOfMean() const;
+  /// The least common sigma of the observations, C.
+  [[nodiscard]] double commonSigma() const;
   /// Weighted standard deviation of the observations about their mean, C.
   [[nodiscard]] double spread() const;
   [[nodiscard]] double minCelsius() const;  ///< to 1/32 C
@@ -123,7 +139,7 @@ struct SurfaceCell {
 
  private:
   struct Sums {
-    std::uint64_t observations, weight, weighted, square;
+    std::uint64_t observations, weight, weighted, square, common_code;
     friend auto operator<=>(const Sums&, const Sums&) = default;
   };
   struct Extremes {
@@ -132,12 +148,12 @@ struct SurfaceCell {
   void takeSums(const Sums& other);
   void takeExtremes(const Extremes& other);
   /// 1, or less for an observation that is far off.
-  [[nodiscard]] double guardedShare(double celsius, double sigma) const;
+  [[nodiscard]] double guardedShare(double celsius, double variance) const;
   [[nodiscard]] bool hasPlausibleTemperature() const;
   /// Weighted mean and mean of the squares, counted from -274 C.
   [[nodiscard]] double meanFromZero() const;
   [[nodiscard]] double meanSquare() const;
 };
-static_assert(sizeof(SurfaceCell) == 57 && alignof(SurfaceCell) == 1);
+static_assert(sizeof(SurfaceCell) == 58 && alignof(SurfaceCell) == 1);
 
 }  // namespace thermovox

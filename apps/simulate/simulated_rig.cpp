@@ -92,10 +92,13 @@ RadiometricParameters makeRadiometry(const SimulationOptions& options) {
   RadiometricParameters parameters;
   // 0.01 C a count at room temperature, 288 C at the last one.
   parameters.planck = {.r1 = 34000.0, .r2 = 0.0442, .b = 1428.0, .f = 1.0, .o = -140.0};
-  parameters.emissivity = 1.0;
+  parameters.emissivity = options.emissivity;
   parameters.distance = 1.0;
-  parameters.reflected = parameters.atmosphere_temperature = parameters.window_temperature = options.air;
+  parameters.reflected = options.reflected.value_or(options.air);
+  parameters.atmosphere_temperature = options.air;
   parameters.humidity = options.humidity;
+  parameters.window_transmission = options.window_transmission;
+  parameters.window_temperature = options.window_temperature.value_or(options.air);
   return parameters;
 }
 

@@ -9,8 +9,8 @@ namespace thermovox::simulate {
 /// asked kind (a LIDAR-Lite, a Hokuyo UTM-30LX, a spinning 16-beam laser), each with a mounting of its own.
 [[nodiscard]] Rig makeRig(const SimulationOptions& options);
 
-/// What the counts of its radiometric JPEGs mean: black surfaces, the options' air, and the distance of one
-/// metre that such cameras are mostly left at.
+/// What the counts of its radiometric JPEGs mean: the options' surfaces, air and window, and the distance of
+/// one metre that such cameras are mostly left at.
 [[nodiscard]] RadiometricParameters makeRadiometry(const SimulationOptions& options);
 
 /// Beams of the cloud laser, and the columns of one turn.

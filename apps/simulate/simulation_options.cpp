@@ -25,6 +25,14 @@ void requireNotNegative(const std::string& option, double value, double largest)
   }
 }
 
+void requireCelsius(const std::string& option, double value) {
+  if (!(value >= -60.0 && value <= 80.0)) refuse(option, value, "-60 to 80");
+}
+
+void requireShare(const std::string& option, double value) {
+  if (!(value >= 0.05 && value <= 1.0)) refuse(option, value, "0.05 to 1");
+}
+
 }  // namespace
 
 void SimulationOptions::validate() const {
@@ -36,7 +44,11 @@ void SimulationOptions::validate() const {
   requirePositive("cloud_rate [1/s]", cloud_rate, 200.0);
   requireNotNegative("netd [C]", netd, 10.0);
   requireNotNegative("humidity", humidity, 1.0);
-  if (!(air >= -60.0 && air <= 80.0)) refuse("air [C]", air, "-60 to 80");
+  requireCelsius("air [C]", air);
+  requireShare("emissivity", emissivity);
+  requireCelsius("reflected [C]", reflected.value_or(air));
+  requireShare("window_transmission", window_transmission);
+  requireCelsius("window_temperature [C]", window_temperature.value_or(air));
   requireNotNegative("blur_px", blur_px, 5.0);
   requireNotNegative("range_sigma [m]", range_sigma, 1.0);
   requireNotNegative("outlier_share", outlier_share, 1.0);

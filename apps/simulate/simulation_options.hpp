@@ -39,8 +39,12 @@ struct SimulationOptions {
   int supersampling = 3;    ///< rays a pixel and axis
   double frame_rate = 5.0;  ///< thermal frames a second
   FrameFormat frames = FrameFormat::tiff;
-  double air = 20.0;      ///< temperature of the air, C (rjpeg)
-  double humidity = 0.5;  ///< of the air, relative, 0 to 1 (rjpeg)
+  double air = 20.0;                         ///< temperature of the air, C (rjpeg)
+  double humidity = 0.5;                     ///< of the air, relative, 0 to 1 (rjpeg)
+  double emissivity = 1.0;                   ///< of all surfaces, 0.05 to 1 (rjpeg)
+  std::optional<double> reflected;           ///< what they mirror, C (rjpeg); default the air's temperature
+  double window_transmission = 1.0;          ///< of a window before the lens, 0.05 to 1; 1: none (rjpeg)
+  std::optional<double> window_temperature;  ///< C (rjpeg); default the air's
 
   /// Whether a visible camera flies along.
   enum class VisibleCamera { absent, present };

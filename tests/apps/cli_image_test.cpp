@@ -158,6 +158,22 @@ TEST_F(ImageVerb, RefusesWhatCannotBeMeant) {
   }
 }
 
+TEST_F(ImageVerb, RefusesForATiffWhatOnlyAPictureHas) {
+  for (const std::string option :
+       {"--palette rainbow", "--palette inferno", "--span 1 2", "--percentile 1 99.9", "--edges",
+        "--visible v.jpg --rig r.yaml --range 3"}) {
+    const std::string name = option.substr(0, option.find(' '));
+    for (const std::string& arguments : {"a.jpg x.tiff " + option, "a.jpg x.TIF --counts " + option}) {
+      const Outcome outcome = run(arguments);
+      EXPECT_EQ(outcome.code, 2) << arguments;
+      EXPECT_THAT(outcome.err, HasSubstr(name + ": OUT is a TIFF")) << arguments;
+    }
+    const Outcome watch = run("--watch . ../out " + option);
+    EXPECT_EQ(watch.code, 2) << option;
+    EXPECT_THAT(watch.err, HasSubstr(name + ": --watch writes TIFFs")) << option;
+  }
+}
+
 TEST_F(ImageVerb, SaysWhyAFileHoldsNoTemperatures) {
   FlirFile vue = frame(1);
   vue.model = "Vue Pro 640 13mm";

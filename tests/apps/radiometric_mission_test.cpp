@@ -135,6 +135,31 @@ TEST_F(RadiometricMission, IsColouredByWhatIsKnownBetterThanItsFramesSay) {
   }
 }
 
+TEST_F(RadiometricMission, OfSurfacesThatMirrorBehindAWindowIsColouredAsTheyAre) {
+  options.emissivity = 0.8;
+  options.reflected = -5.0;
+  options.window_transmission = 0.85;
+  options.window_temperature = 45.0;
+  simulate::simulateMission(options, folder / "mirrors");
+  const std::vector<ColouredReturn> clear = pointsOf("clear");
+  const std::vector<ColouredReturn> mirrors = pointsOf("mirrors");
+  const std::vector<ColouredReturn> black =
+      pointsOf("mirrors", {.radiometry = {.emissivity = 1.0, .window_transmission = 1.0}});
+  ASSERT_EQ(mirrors.size(), clear.size());
+  ASSERT_EQ(black.size(), clear.size());
+  std::size_t flat = 0;
+  double most_wrong = 0.0;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    if (clear[i].colour->sigma > kFlat) continue;
+    ++flat;
+    // A count is 0.015 C of such a surface.
+    EXPECT_NEAR(mirrors[i].colour->celsius, clear[i].colour->celsius, 0.05);
+    most_wrong = std::max<double>(most_wrong, std::abs(black[i].colour->celsius - clear[i].colour->celsius));
+  }
+  EXPECT_GT(flat, mirrors.size() / 2);
+  EXPECT_GT(most_wrong, 2.0) << "what their mirroring and the window add, if nobody knew of them";
+}
+
 TEST_F(RadiometricMission, MayNotBeToldWhatACameraHasSettledItself) {
   EXPECT_THROW(static_cast<void>(pointsOf("clear", {.radiometry = {.emissivity = 0.9}})), DataError);
   folder.write("clear/mission.yaml", test::bytesOf(folder / "clear/mission.yaml") + "ambient: -20\n");

@@ -1,13 +1,17 @@
 // From the bytes of a file to Celsius on one core: opening, decoding, temperatures. `warm` keeps the table of
 // temperatures from image to image, as a mission does; `cold` makes it anew. The files are the project's own
-// (calm scenes); files named on the command line are measured too.
+// (calm scenes); files named on the command line are measured too. Beside the packed ones `peer`: charls and
+// OpenCV (libpng) unpack the same counts, to counts alone.
 
 #include <benchmark/benchmark.h>
+#include <charls/charls.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <vector>
 
 #include "io/celsius_decoder.hpp"
 #include "io/thermal_recording.hpp"
@@ -38,6 +42,21 @@ void add(const std::string& name, const std::string& bytes) {
   }
 }
 
+void addPeers(const std::string& size, const std::string& png, const std::string& jpeg_ls) {
+  benchmark::RegisterBenchmark(("peer/png_" + size).c_str(), [png](benchmark::State& state) {
+    const std::vector<std::uint8_t> bytes(png.begin(), png.end());
+    for (auto _ : state) benchmark::DoNotOptimize(cv::imdecode(bytes, cv::IMREAD_UNCHANGED).data);
+  })->Unit(benchmark::kMicrosecond);
+  benchmark::RegisterBenchmark(("peer/jpeg_ls_" + size).c_str(), [jpeg_ls](benchmark::State& state) {
+    for (auto _ : state) {
+      charls::jpegls_decoder decoder(jpeg_ls, true);
+      std::vector<std::uint16_t> counts(decoder.destination_size() / sizeof(std::uint16_t));
+      decoder.decode(counts);
+      benchmark::DoNotOptimize(counts.data());
+    }
+  })->Unit(benchmark::kMicrosecond);
+}
+
 std::string bytesOf(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -62,6 +81,7 @@ void addOwnFiles(int width, int height) {
   add("raw_" + size, jpeg(test::FlirPacking::raw_little));
   add("png_" + size, jpeg(test::FlirPacking::png));
   add("jpeg_ls_" + size, jpeg(test::FlirPacking::jpeg_ls));
+  addPeers(size, test::grey16Png(width, height, file.counts), test::jpegLs(width, height, file.counts));
   for (std::uint16_t& count : file.counts) count = static_cast<std::uint16_t>(count + 12000);  // 0.01 K each
   add("tiff_" + size, tiffOf(file));
 }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -147,6 +149,61 @@ TEST_P(AnyCameraFolder, GivesAgainWhatWasPutBack) {
   EXPECT_FALSE(images.next(kAWhile).has_value());
 }
 
+TEST_P(AnyCameraFolder, ReadsLittleOfLargeImagesToKnowThem) {
+  const fs::path card = folder / "card";
+  fs::create_directory(card);
+  for (const char* name : {"old.seq", "new.seq"}) put(card / name, "a recording");
+  // Of holes: reading them all would take minutes.
+  constexpr std::uintmax_t size = 200'000'000'000;
+  std::error_code error;
+  fs::resize_file(card / "old.seq", size, error);
+  if (error) GTEST_SKIP() << "the file system takes no file of 200 GB";
+  fs::rename(card / "new.seq", folder / "new.seq");
+  CameraFolder images(card, {.settled = kSettled, .look_every = 20ms, .events = GetParam()});
+  images.passOver();
+  fs::resize_file(folder / "new.seq", size);
+  fs::rename(folder / "new.seq", card / "new.seq");
+  EXPECT_EQ(images.next(kSoon), card / "new.seq");
+  setAge(card / "old.seq", 7200s);
+  setAge(card / "new.seq", 7200s);
+  EXPECT_FALSE(images.next(kAWhile).has_value());
+}
+
+TEST_P(AnyCameraFolder, SeesAnotherLargeImageOfTheSameSize) {
+  const std::string large(1'000'000, 'x');
+  CameraFolder images = open();
+  put(folder / "1.tiff", large);
+  setAge(folder / "1.tiff", 100s);
+  ASSERT_EQ(images.next(kSoon), folder / "1.tiff");
+  for (const std::size_t begin : {0U, 400'000U, 900'000U}) {
+    std::string other = large;
+    std::fill_n(other.begin() + static_cast<std::ptrdiff_t>(begin), 100'000,
+                static_cast<char>('a' + begin / 100'000));
+    put(folder / "1.tiff", other);
+    EXPECT_EQ(images.next(kSoon), folder / "1.tiff") << begin;
+  }
+  std::string other_end = large;
+  other_end.back() = 'y';
+  put(folder / "1.tiff", other_end);
+  EXPECT_EQ(images.next(kSoon), folder / "1.tiff") << "its last byte";
+  EXPECT_FALSE(images.next(kAWhile).has_value());
+}
+
+TEST_P(AnyCameraFolder, GivesEachOfManyImagesThatComeAtOnceOnce) {
+  CameraFolder images = open();
+  EXPECT_FALSE(images.next(0ms).has_value());
+  std::vector<std::string> names;
+  for (int i = 100; i < 300; ++i) {
+    names.push_back(std::to_string(i) + ".jpg");
+    put(folder / names.back(), names.back());
+  }
+  std::this_thread::sleep_for(3 * kSettled);
+  const std::vector<std::string> given = namesOf(images, names.size());
+  EXPECT_EQ(std::set(given.begin(), given.end()), std::set(names.begin(), names.end()));
+  EXPECT_EQ(given.size(), names.size());
+  EXPECT_FALSE(images.next(kAWhile).has_value());
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, AnyCameraFolder,
                          testing::Values(FolderEvents::Source::kernel, FolderEvents::Source::none),
                          [](const auto& test) {
@@ -163,6 +220,25 @@ TEST(CameraFolder, WaitsForAFileThatIsKnownToBeOpen) {
   stream << "and the rest";
   stream.close();
   EXPECT_EQ(images.next(kSoon), folder / "1.seq");
+  EXPECT_FALSE(images.next(kAWhile).has_value());
+}
+
+TEST(CameraFolder, DoesNotGiveWhatIsWrittenAgainBeforeItsTurn) {
+  const TestFolder folder;
+  CameraFolder images(folder.path(), {.settled = kNever, .settled_open = kNever, .look_every = kNever});
+  EXPECT_FALSE(images.next(0ms).has_value());
+  put(folder / "1.part", "one");
+  setAge(folder / "1.part", 20s);  // the kernel takes that for a change, so before it has its name
+  fs::rename(folder / "1.part", folder / "1.jpg");
+  put(folder / "2.jpg", "two");
+  ASSERT_EQ(images.next(kSoon), folder / "1.jpg");
+  std::ofstream again(folder / "2.jpg", std::ios::binary);
+  again << "two, and" << std::flush;
+  EXPECT_FALSE(images.next(kAWhile).has_value());
+  again << " once more";
+  again.close();
+  ASSERT_EQ(images.next(kSoon), folder / "2.jpg");
+  EXPECT_EQ(fs::file_size(folder / "2.jpg"), 18U);
   EXPECT_FALSE(images.next(kAWhile).has_value());
 }
 

@@ -4,35 +4,23 @@
 #include <libdeflate.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 #include <memory>
 #include <random>
 #include <stdexcept>
 #include <utility>
 
+#include "apps/simulate/flir_writer.hpp"
+
 namespace thermovox::test {
 namespace {
 
 template <typename T>
-void put(std::string& bytes, std::size_t offset, T number, ByteOrder order) {
-  if (offset + sizeof(T) > bytes.size()) return;  // a record that ends before the field
-  std::uint64_t bits = 0;
-  if constexpr (std::is_same_v<T, float>) {
-    bits = std::bit_cast<std::uint32_t>(number);
-  } else {
-    bits = static_cast<std::uint64_t>(number);
-  }
+void append(std::string& bytes, T number, ByteOrder order) {
   for (std::size_t i = 0; i < sizeof(T); ++i) {
     const std::size_t place = order == ByteOrder::little ? i : sizeof(T) - 1 - i;
-    bytes[offset + place] = static_cast<char>(bits >> 8 * i);
+    bytes += static_cast<char>(number >> 8 * place);
   }
-}
-
-template <typename T>
-void append(std::string& bytes, T number, ByteOrder order) {
-  bytes.resize(bytes.size() + sizeof(T));
-  put(bytes, bytes.size() - sizeof(T), number, order);
 }
 
 std::string inOrder(const std::vector<std::uint16_t>& counts, ByteOrder order) {
@@ -62,84 +50,18 @@ std::string packed(const FlirFile& file) {
   return jpegLs(file.width, file.height, file.counts);
 }
 
-/// A record of pixels: 2, width, height, and the pixels from byte 32 on.
-std::string pixelRecord(int width, int height, const std::string& pixels, ByteOrder order) {
-  std::string record(32, '\0');
-  put(record, 0, std::uint16_t{2}, order);
-  put(record, 2, static_cast<std::uint16_t>(width), order);
-  put(record, 4, static_cast<std::uint16_t>(height), order);
-  return record + pixels;
-}
-
 std::string cameraInfo(const FlirFile& file) {
-  std::string record(file.camera_info_size, '\0');
-  const RadiometricParameters& p = file.parameters;
-  const auto real = [&](std::size_t offset, double value) {
-    put(record, offset, static_cast<float>(value), file.records);
-  };
-  put(record, 0, std::uint16_t{2}, file.records);
-  real(0x20, p.emissivity);
-  real(0x24, p.distance);
-  real(0x28, p.reflected - kAbsoluteZero);
-  real(0x2C, p.atmosphere_temperature - kAbsoluteZero);
-  real(0x30, p.window_temperature - kAbsoluteZero);
-  real(0x34, p.window_transmission);
-  real(0x3C, p.humidity);
-  real(0x58, p.planck.r1);
-  real(0x5C, p.planck.b);
-  real(0x60, p.planck.f);
-  real(0x70, p.atmosphere.alpha1);
-  real(0x74, p.atmosphere.alpha2);
-  real(0x78, p.atmosphere.beta1);
-  real(0x7C, p.atmosphere.beta2);
-  real(0x80, p.atmosphere.x);
-  real(0x90, 393.15);
-  real(0x94, 253.15);
-  const auto text = [&](std::size_t offset, const std::string& value) {
-    if (offset + value.size() <= record.size()) record.replace(offset, value.size(), value);
-  };
-  text(0xD4, file.model);
-  text(0x104, "64502173");
-  text(0x170, "FOL18");
-  real(0x1B4, 25.0);
-  put(record, 0x308, static_cast<std::int32_t>(p.planck.o), file.records);
-  real(0x30C, p.planck.r2);
-  put(record, 0x384, std::uint32_t{1365762241}, file.records);  // 2013-04-12 10:24:01 UTC
-  put(record, 0x388, std::uint32_t{131}, file.records);
-  put(record, 0x38C, std::int16_t{60}, file.records);
-  return record;
-}
-
-std::string pictureInPicture() {
-  std::string record(96, '\0');
-  put(record, 0, 2.5F, ByteOrder::little);
-  const std::int16_t numbers[] = {-50, -40, 36, 123, 27, 92};
-  for (std::size_t i = 0; i < 6; ++i) put(record, 4 + 2 * i, numbers[i], ByteOrder::little);
-  return record;
-}
-
-struct Record {
-  std::uint16_t type = 0;
-  std::uint16_t subtype = 0;
-  std::string bytes;
-};
-
-std::string assembled(const std::vector<Record>& records, ByteOrder order) {
-  std::string frame(64 + 32 * records.size(), '\0');
-  frame.replace(0, 4, std::string("FFF\0", 4));
-  frame.replace(4, 4, "TEST");
-  put(frame, 0x14, std::uint32_t{101}, order);
-  put(frame, 0x18, std::uint32_t{64}, order);
-  put(frame, 0x1C, static_cast<std::uint32_t>(records.size()), order);
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    const std::size_t entry = 64 + 32 * i;
-    put(frame, entry, records[i].type, order);
-    put(frame, entry + 2, records[i].subtype, order);
-    put(frame, entry + 12, static_cast<std::uint32_t>(frame.size()), order);
-    put(frame, entry + 16, static_cast<std::uint32_t>(records[i].bytes.size()), order);
-    frame += records[i].bytes;
-  }
-  return frame;
+  return simulate::flirCameraRecord({.parameters = file.parameters,
+                                     .model = file.model,
+                                     .serial = "64502173",
+                                     .lens = "FOL18",
+                                     .range_low = -20.0,
+                                     .range_high = 120.0,
+                                     .field_of_view_deg = 25.0,
+                                     .unix_seconds = 1365762241,  // 2013-04-12 10:24:01 UTC
+                                     .milliseconds = 131,
+                                     .minutes_behind = 60},
+                                    file.camera_info_size, file.records);
 }
 
 std::string zlibbed(const std::string& data) {
@@ -199,21 +121,20 @@ std::vector<std::uint16_t> calmCounts(int width, int height, std::uint64_t seed)
 }
 
 std::string flirFrame(const FlirFile& file) {
-  std::vector<Record> records;
+  std::vector<simulate::WrittenRecord> records;
   records.push_back({0x20, 1, cameraInfo(file)});
   records.push_back({0, 0, ""});  // an empty entry, as cameras leave them
   records.push_back({0x01, static_cast<std::uint16_t>(file.packing),
-                     pixelRecord(file.width, file.height, packed(file), file.records)});
-  if (file.picture_in_picture) records.push_back({0x2A, 1, pictureInPicture()});
+                     simulate::flirPixelRecord(file.width, file.height, packed(file), file.records)});
+  if (file.picture_in_picture)
+    records.push_back({0x2A, 1, simulate::flirPictureInPictureRecord(2.5F, {-50, -40, 36, 123, 27, 92})});
   if (!file.visible_jpeg.empty())
-    records.push_back({0x0E, 5, pixelRecord(4, 3, file.visible_jpeg, file.records)});
-  return assembled(records, file.container);
+    records.push_back({0x0E, 5, simulate::flirPixelRecord(4, 3, file.visible_jpeg, file.records)});
+  return simulate::flirFrame(records, "TEST", file.container);
 }
 
 std::string appSegment(std::uint8_t marker, const std::string& payload) {
-  std::string segment{'\xFF', static_cast<char>(marker)};
-  append(segment, static_cast<std::uint16_t>(payload.size() + 2), ByteOrder::big);
-  return segment + payload;
+  return simulate::jpegSegment(marker, payload);
 }
 
 std::string exifSegment(const std::string& make, const std::string& model) {
@@ -232,14 +153,8 @@ std::string exifSegment(const std::string& make, const std::string& model) {
 }
 
 std::string radiometricJpeg(const std::string& frame, const JpegCut& cut) {
-  const std::size_t pieces = (frame.size() + cut.piece_size - 1) / cut.piece_size;
-  std::vector<std::string> segments;
-  for (std::size_t i = 0; i < pieces; ++i) {
-    std::string payload("FLIR\0\x01", 6);
-    payload += static_cast<char>(cut.numbered ? i : 0);
-    payload += static_cast<char>(cut.numbered ? pieces - 1 : 0);
-    segments.push_back(appSegment(0xE1, payload + frame.substr(i * cut.piece_size, cut.piece_size)));
-  }
+  std::vector<std::string> segments =
+      simulate::flirSegments(frame, {.piece_size = cut.piece_size, .numbered = cut.numbered});
   if (cut.shuffled) std::rotate(segments.begin(), segments.end() - 1, segments.end());
   std::string jpeg("\xFF\xD8");
   jpeg += cut.before;

@@ -7,6 +7,7 @@
 #include "io/celsius_decoder.hpp"
 #include "projection/error.hpp"
 #include "tests/io/flir_file.hpp"
+#include "tests/support/memory_limit.hpp"
 #include "tests/support/recordings.hpp"
 
 namespace thermovox {
@@ -196,6 +197,7 @@ TEST(ReadFlirFrame, RefusesCountsOfAnotherSizeThanTheRecordSays) {
 }
 
 TEST(ReadFlirFrame, TakesNoMemoryForAnImageThatItsBytesCannotHold) {
+  const test::MemoryLimit limit(256'000'000);
   FlirFile file = calmFile(20, 15);
   std::string raw = flirFrame(file);
   const std::size_t record = raw.find(std::string("\x02\0\x14\0\x0F\0", 6));

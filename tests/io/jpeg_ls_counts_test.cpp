@@ -29,7 +29,7 @@ std::string encodedByCharls(const Picture& picture, const charls::jpegls_pc_para
                       picture.bits, 1});
   encoder.preset_coding_parameters(presets);
   encoder.near_lossless(near);
-  std::string bytes(encoder.estimated_destination_size() + 4096, '\0');
+  std::string bytes(encoder.estimated_destination_size() + 4096 + picture.samples.size() / 4, '\0');
   encoder.destination(bytes);
   bytes.resize(encoder.encode(picture.samples));
   return bytes;
@@ -92,6 +92,113 @@ TEST(DecodeJpegLsCounts, FollowsThePresetsOfThePicture) {
     Picture picture = randomPicture(random);
     picture.bits = 16;
     EXPECT_EQ(decode(encodedByCharls(picture, {65535, 10, 100, 1000, 31})).counts, picture.samples);
+  }
+}
+
+/// The two bytes of a preset, in the order of the standard: largest value, three thresholds, reset.
+std::string withPreset(std::string bytes, std::size_t preset, unsigned value) {
+  const std::size_t segment = bytes.find(std::string("\xFF\xF8\0\x0D\x01", 5));
+  EXPECT_NE(segment, std::string::npos);
+  bytes[segment + 5 + 2 * preset] = static_cast<char>(value >> 8);
+  bytes[segment + 6 + 2 * preset] = static_cast<char>(value);
+  return bytes;
+}
+
+/// Presets as far apart as the standard allows.
+std::vector<charls::jpegls_pc_parameters> extremePresets() {
+  return {{65535, 18, 67, 276, 65535},      {65535, 18, 67, 276, 3},        {65535, 1, 1, 1, 64},
+          {65535, 65535, 65535, 65535, 64}, {65535, 1, 65535, 65535, 64},   {65535, 1, 1, 65535, 64},
+          {65535, 1, 1, 1, 65535},          {65535, 65535, 65535, 65535, 3}};
+}
+
+TEST(DecodeJpegLsCounts, FollowsPresetsAtTheirLimits) {
+  std::mt19937_64 random(22);
+  for (const charls::jpegls_pc_parameters& presets : extremePresets()) {
+    for (int i = 0; i < 20; ++i) {
+      Picture picture = randomPicture(random);
+      picture.bits = 16;
+      SCOPED_TRACE(testing::Message() << "thresholds " << presets.threshold1 << " " << presets.threshold2
+                                      << " " << presets.threshold3 << ", reset " << presets.reset_value);
+      const std::string bytes = encodedByCharls(picture, presets);
+      ASSERT_EQ(decodedByCharls(bytes), picture.samples);
+      ASSERT_EQ(decode(bytes).counts, picture.samples);
+    }
+  }
+}
+
+/// A large calm picture learns without a reset what one of 65535 would forget.
+TEST(DecodeJpegLsCounts, FollowsAResetThatNeverOrHardlyComes) {
+  std::mt19937_64 random(23);
+  Picture picture{.width = 640, .height = 512};
+  for (int i = 0; i < picture.width * picture.height; ++i)
+    picture.samples.push_back(static_cast<std::uint16_t>(17000 + i / 5000 + static_cast<int>(random() % 40)));
+  for (const int reset : {3, 64, 40000, 65535}) {
+    const std::string bytes = encodedByCharls(picture, {65535, 18, 67, 276, reset});
+    EXPECT_EQ(decode(bytes).counts, picture.samples) << reset;
+  }
+}
+
+/// Errors of all sizes that no reset makes smaller sum up beyond 24 bits, which charls takes for damage too.
+TEST(DecodeJpegLsCounts, FollowsNoiseAsFarAsCharlsDoes) {
+  std::mt19937_64 random(24);
+  Picture picture{.width = 200, .height = 200};
+  for (int i = 0; i < picture.width * picture.height; ++i)
+    picture.samples.push_back(static_cast<std::uint16_t>(random()));
+  for (const charls::jpegls_pc_parameters& presets : extremePresets()) {
+    std::string bytes;
+    try {
+      bytes = encodedByCharls(picture, presets);
+    } catch (const charls::jpegls_error&) {
+      EXPECT_EQ(presets.reset_value, 65535);
+      continue;
+    }
+    EXPECT_EQ(decode(bytes).counts, picture.samples);
+  }
+}
+
+TEST(DecodeJpegLsCounts, RefusesErrorsThatGrowWithoutEnd) {
+  std::mt19937_64 random(27);
+  Picture picture{.width = 400, .height = 400};
+  for (int i = 0; i < picture.width * picture.height; ++i)
+    picture.samples.push_back(static_cast<std::uint16_t>(random()));
+  // Encoded with a reset at 64 errors, and said to have none: what is decoded is noise as well.
+  std::string bytes = encodedByCharls(picture, {65535, 18, 67, 276, 63});
+  bytes = withPreset(bytes, 4, 65535);
+  EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(decode(bytes)); }),
+              HasSubstr("picture is a damaged JPEG-LS picture"));
+}
+
+TEST(DecodeJpegLsCounts, RefusesPresetsThatCannotBe) {
+  std::mt19937_64 random(25);
+  Picture picture = randomPicture(random);
+  picture.bits = 12;
+  for (std::uint16_t& sample : picture.samples) sample &= 0xFFF;
+  const std::string bytes = encodedByCharls(picture, {4095, 10, 100, 1000, 31});
+  ASSERT_EQ(decode(bytes).counts, picture.samples);
+  const std::pair<std::size_t, unsigned> impossible[] = {{0, 4096}, {0, 65535}, {0, 999},  {1, 101}, {2, 9},
+                                                         {2, 1001}, {3, 99},    {3, 4096}, {4, 1},   {4, 2}};
+  for (const auto& [preset, value] : impossible) {
+    const std::string crafted = withPreset(bytes, preset, value);
+    EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(decode(crafted)); }),
+                HasSubstr("its presets cannot be"))
+        << "preset " << preset << ": " << value;
+  }
+}
+
+TEST(DecodeJpegLsCounts, ComesToAnEndWhateverThePresets) {
+  std::mt19937_64 random(26);
+  const unsigned extremes[] = {0, 1, 2, 3, 255, 256, 32767, 32768, 65534, 65535};
+  for (int i = 0; i < 300; ++i) {
+    Picture picture = randomPicture(random);
+    picture.bits = 16;
+    std::string bytes = encodedByCharls(picture, {65535, 10, 100, 1000, 31});
+    for (std::size_t preset = 0; preset < 5; ++preset) {
+      if (random() % 2 == 0) bytes = withPreset(bytes, preset, extremes[random() % std::size(extremes)]);
+    }
+    try {
+      EXPECT_EQ(decode(bytes).counts.size(), picture.samples.size());
+    } catch (const DataError&) {
+    }
   }
 }
 

@@ -19,6 +19,7 @@ using testing::IsEmpty;
 
 const fs::path kData = fs::path(THERMOVOX_SOURCE_DIR) / "tests" / "data";
 const fs::path kVersion1 = kData / "station_v1.tvx";
+const fs::path kVersion2 = kData / "station_v2.tvx";
 
 /// A row of the cloud that the program of that time exported.
 struct OldPoint {
@@ -26,8 +27,8 @@ struct OldPoint {
   double celsius, sigma, count, time;
 };
 
-std::vector<OldPoint> oldPoints() {
-  std::ifstream file(kData / "station_v1.csv");
+std::vector<OldPoint> oldPoints(const char* name) {
+  std::ifstream file(kData / name);
   std::string line;
   std::getline(file, line);  // names
   std::vector<OldPoint> points;
@@ -58,7 +59,7 @@ TEST(StationMigration, ReadsVersion1AsItIs) {
 // stamps in 2^15 ns, places unchanged.
 TEST(StationMigration, KeepsSurfacesWithinTodaysQuanta) {
   const ThermalMap map = Station::open(kVersion1).loadMap();
-  const std::vector<OldPoint> points = oldPoints();
+  const std::vector<OldPoint> points = oldPoints("station_v1.csv");
   ASSERT_EQ(points.size(), map.surfaceCount());
   int with_temperature = 0;
   for (const OldPoint& old : points) {
@@ -99,8 +100,49 @@ TEST(StationMigration, AWriterMakesItTheVersionOfToday) {
   EXPECT_EQ(station.counts().missions, 3);
   EXPECT_TRUE(sameMap(station.loadMap(), before));
   const SqlDatabase database(path, SqlDatabase::Mode::read, "plant.tvx");
-  EXPECT_EQ(database.integer("PRAGMA user_version"), 2);
+  EXPECT_EQ(database.integer("PRAGMA user_version"), 3);
   EXPECT_EQ(database.integer("SELECT count(*) FROM missions WHERE T_world_mission IS NULL"), 3);
+}
+
+TEST(StationMigration, ReadsVersion2ToTheBit) {
+  const Station station = Station::open(kVersion2);
+  EXPECT_THAT(station.verify(), IsEmpty());
+  EXPECT_EQ(station.counts(), (Station::Counts{2, 6, 103, 616}));
+  const ThermalMap map = station.loadMap();
+  const std::vector<OldPoint> points = oldPoints("station_v2.csv");
+  ASSERT_EQ(points.size(), map.surfaceCount());
+  int with_temperature = 0;
+  for (const OldPoint& old : points) {
+    SCOPED_TRACE(testing::Message() << old.p_world.transpose());
+    const SurfaceCell* cell = map.surface(map.keyOf(old.p_world));
+    ASSERT_NE(cell, nullptr);
+    ASSERT_EQ(static_cast<double>(cell->observations), old.count);
+    if (old.count == 0) continue;
+    ++with_temperature;
+    EXPECT_EQ(cell->commonSigma(), 0.0);                                   // which was not known then
+    EXPECT_NEAR(cell->mean(), old.celsius, 1e-6 * std::abs(old.celsius));  // the CSV has floats
+    EXPECT_NEAR(cell->sigmaOfMean(), old.sigma, 1e-6 * old.sigma);
+    EXPECT_NEAR(toUnixSeconds(cell->last()), old.time, 1e-6);
+  }
+  EXPECT_GT(with_temperature, 100);
+}
+
+TEST(StationMigration, Version2IsContinuedAndMergedAsTheVersionOfToday) {
+  const TestFolder folder;
+  const fs::path path = folder / "plant.tvx";
+  fs::copy_file(kVersion2, path);
+  ThermalMap both = Station::open(path).loadMap();
+  ThermalMap mission(both.options());
+  const Eigen::Vector3d p_world(0.1, 0.1, 0.1);
+  const TemperatureObservation grazing{.celsius = 30.0F, .sigma = 0.1F, .common_sigma = 2.0F};
+  mission.integrate({{{p_world, p_world, Time{}, grazing}}}, Carving::none);
+  Station::open(path).addMission(record("m3"), mission, KnownMission::refuse);
+  both.merge(mission);
+  const Station station = Station::open(path);
+  EXPECT_THAT(station.verify(), IsEmpty());
+  EXPECT_TRUE(sameMap(station.loadMap(), both));
+  const SqlDatabase database(path, SqlDatabase::Mode::read, "plant.tvx");
+  EXPECT_EQ(database.integer("PRAGMA user_version"), 3);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "io/thermal_recording.hpp"
 #include "projection/error.hpp"
 #include "tests/io/tiff_writer.hpp"
+#include "tests/support/memory_limit.hpp"
 #include "tests/support/recordings.hpp"
 
 namespace thermovox {
@@ -153,19 +154,43 @@ TEST(ThermalTiff, NamesTheFileThatIsTruncated) {
   }
 }
 
-TEST(ThermalTiff, RefusesAnImageThatItsFileCannotHold) {
+/// The file with another width and height in its directory, whose entries are of 16 x 12 pixels: tag, type
+/// SHORT (then LONG), count 1, value, all little endian.
+std::string claiming(std::string bytes, std::uint32_t width, std::uint32_t height) {
+  for (const auto& [tag, found, claim] : {std::tuple{'\x00', '\x10', width}, {'\x01', '\x0C', height}}) {
+    const std::string entry =
+        std::string(1, tag) + std::string("\x01\x03\x00\x01\x00\x00\x00", 7) + found + std::string(3, '\0');
+    const std::size_t place = bytes.find(entry);
+    EXPECT_NE(place, std::string::npos);
+    bytes[place + 2] = '\x04';
+    for (std::size_t i = 0; i < 4; ++i) bytes[place + 8 + i] = static_cast<char>(claim >> 8 * i);
+  }
+  return bytes;
+}
+
+TEST(ThermalTiff, TakesNoMemoryForAnImageThatItsFileCannotHold) {
   const test::TestFolder folder;
   writeTiff(folder / "small.tiff", randomCounts(16, 12, 1), {.rows_per_strip = 12});
-  std::string bytes = test::bytesOf(folder / "small.tiff");
-  // The width's entry of the directory: tag 256, type SHORT, count 1, value 16, all little endian.
-  const std::string width("\x00\x01\x03\x00\x01\x00\x00\x00\x10\x00\x00\x00", 12);
-  const std::size_t entry = bytes.find(width);
-  ASSERT_NE(entry, std::string::npos);
-  bytes.replace(entry, 12, std::string("\x00\x01\x04\x00\x01\x00\x00\x00\x00\x00\x00\x7F", 12));
-  const auto file = folder.write("absurd.tiff", bytes);
-  EXPECT_THAT(
-      messageOf<DataError>([&] { static_cast<void>(decode(file, 0, kDuoR)); }),
-      AllOf(HasSubstr("absurd.tiff: claims 2130706432 x 12 pixels"), HasSubstr("expected a thermal image")));
+  const std::string small = test::bytesOf(folder / "small.tiff");
+  const test::MemoryLimit limit(256'000'000);
+  for (const auto& [width, height] : {std::pair{0x7F000000U, 12U}, {60'000U, 60'000U}, {10'000U, 10'000U}}) {
+    const auto file = folder.write("absurd.tiff", claiming(small, width, height));
+    EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(decode(file, 0, kDuoR)); }),
+                AllOf(HasSubstr("absurd.tiff: claims " + std::to_string(width) + " x " +
+                                std::to_string(height) + " pixels"),
+                      HasSubstr("expected a thermal image")));
+  }
+}
+
+TEST(ThermalTiff, TakesNoMemoryForAClaimBesideManyBytes) {
+  const test::TestFolder folder;
+  writeTiff(folder / "small.tiff", randomCounts(16, 12, 1), {.rows_per_strip = 12});
+  const std::string padding(2'000'000, 'x');  // enough for 60000 x 60000 pixels, tightly packed
+  const auto file =
+      folder.write("padded.tiff", claiming(test::bytesOf(folder / "small.tiff"), 60'000, 60'000) + padding);
+  const test::MemoryLimit limit(256'000'000);
+  EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(decode(file, 0, kDuoR)); }),
+              HasSubstr("padded.tiff: claims 60000 x 60000 pixels"));
 }
 
 TEST(OpenThermalRecording, RefusesOtherKindsByName) {

@@ -87,6 +87,14 @@ TEST(TileCodec, KeepsSumsThatTakeTwoBytes) {
   EXPECT_EQ(decodeTile({0, 0, 0}, encodeTile(blocks)), blocks);
 }
 
+TEST(TileCodec, KeepsTheCommonSigma) {
+  Block block;
+  block.surfaceOrNew(7).addTemperature(
+      {.celsius = 20.0F, .sigma = 0.1F, .range = 1.0F, .incidence = 1.2F, .common_sigma = 3.0F}, Time{});
+  const TileBlocks blocks{{{0, 0, 0}, block}};
+  EXPECT_NEAR(decodeTile({0, 0, 0}, encodeTile(blocks)).begin()->second.surface(7)->commonSigma(), 3.0, 0.05);
+}
+
 TEST(TileCodec, RefusesOtherBytes) {
   EXPECT_THROW((void)decodeTile(kTile, ""), DataError);
   EXPECT_THROW((void)decodeTile(kTile, "not a tile at all"), DataError);

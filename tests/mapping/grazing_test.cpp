@@ -46,8 +46,8 @@ struct Wall {
       }
     }
   }
-  [[nodiscard]] std::vector<float> distrust(const std::optional<double>& ambient) {
-    return distrustGrazing(returns, found, {kEdge, kNoise, ambient});
+  [[nodiscard]] std::vector<GrazingView> views() const {
+    return grazingViews(returns, found, readingNormals(returns, found, kEdge, kNoise), 15.0);
   }
   /// Of the middle of the wall.
   [[nodiscard]] std::size_t middle() const { return returns.size() / 2 + 20; }
@@ -56,28 +56,28 @@ struct Wall {
 TEST(Grazing, DistrustsWhatIsSeenAtAGrazingAngle) {
   const ThermalView view = viewOf(plainImage());
   for (const double angle : {0.0, 30.0, 65.0, 75.0}) {
-    Wall wall(angle, view);
-    const std::vector<float> incidences = wall.distrust(15.0);
+    const Wall wall(angle, view);
+    const GrazingView grazing = wall.views()[wall.middle()];
     const double radians = angle * std::numbers::pi / 180.0;
-    EXPECT_NEAR(incidences[wall.middle()], radians, 0.06) << angle;
-    const double loss = emissivityLoss(static_cast<float>(std::cos(incidences[wall.middle()])));
-    EXPECT_NEAR(wall.found[wall.middle()]->colour.sigma, std::hypot(0.05, loss * 45.0), 1e-3) << angle;
+    EXPECT_NEAR(grazing.incidence, radians, 0.06) << angle;
+    const double loss = emissivityLoss(static_cast<float>(std::cos(grazing.incidence)));
+    EXPECT_NEAR(grazing.sigma, loss * 45.0, 1e-3) << angle;
+    EXPECT_NEAR(distrusted(kSeen, grazing).sigma, std::hypot(0.05, loss * 45.0), 1e-3) << angle;
     if (angle < 40.0) {
-      EXPECT_EQ(wall.found[wall.middle()]->colour.sigma, 0.05F);
+      EXPECT_EQ(grazing.sigma, 0.0F);
     }
     if (angle > 60.0) {
-      EXPECT_GT(wall.found[wall.middle()]->colour.sigma, 1.0F);
+      EXPECT_GT(grazing.sigma, 1.0F);
     }
   }
 }
 
 TEST(Grazing, AddsNothingWhereNoNormalIsKnown) {
   const ThermalView view = viewOf(plainImage());
-  Wall line(75.0, view, 1);  // one line of a scanner is no plane
-  const std::vector<float> incidences = line.distrust(15.0);
-  for (std::size_t i = 0; i < line.found.size(); ++i) {
-    EXPECT_TRUE(std::isnan(incidences[i]));
-    EXPECT_EQ(line.found[i]->colour.sigma, 0.05F);
+  const Wall line(75.0, view, 1);  // one line of a scanner is no plane
+  for (const GrazingView& grazing : line.views()) {
+    EXPECT_TRUE(std::isnan(grazing.incidence));
+    EXPECT_EQ(distrusted(kSeen, grazing).sigma, 0.05F);
   }
 }
 
@@ -91,19 +91,17 @@ TEST(Grazing, TakesNoScanPlaneForASurface) {
         .p_world = i < 20 ? Eigen::Vector3d(along, 0.1, 5.0) : Eigen::Vector3d(0.39, 0.1, 5.0 + along - 0.4),
         .origin_world = Eigen::Vector3d(-1.0, 0.1, 0.0)};
   }
-  for (const float incidence : corner.distrust(15.0)) EXPECT_TRUE(std::isnan(incidence));
+  for (const GrazingView& grazing : corner.views()) EXPECT_TRUE(std::isnan(grazing.incidence));
 }
 
 TEST(Grazing, LeavesReturnsWithoutATemperatureAlone) {
   const ThermalView view = viewOf(plainImage());
   Wall wall(75.0, view);
   for (std::size_t i = 0; i < wall.found.size(); i += 2) wall.found[i].reset();
-  const std::vector<float> incidences = wall.distrust(15.0);
-  for (std::size_t i = 0; i < wall.found.size(); i += 2) {
-    EXPECT_FALSE(wall.found[i]);
-    EXPECT_TRUE(std::isnan(incidences[i]));
-  }
-  EXPECT_EQ(distrustGrazing({}, {}, {kEdge, kNoise, std::nullopt}).size(), 0U);
+  const std::vector<GrazingView> views = wall.views();
+  for (std::size_t i = 0; i < views.size(); ++i) EXPECT_EQ(std::isnan(views[i].incidence), i % 2 == 0);
+  EXPECT_TRUE(readingNormals({}, {}, kEdge, kNoise).empty());
+  EXPECT_TRUE(grazingViews({}, {}, {}, std::nullopt).empty());
 }
 
 TEST(Grazing, TakesTheSurroundingsFromTheFrameThenFromTheMission) {
@@ -120,8 +118,7 @@ TEST(Grazing, SurvivesPointsBeyondEveryMap) {
   const ThermalView view = viewOf(plainImage());
   Wall wall(0.0, view);
   for (PlacedReturn& placed : wall.returns) placed.p_world *= 1e200;
-  const std::vector<float> incidences = wall.distrust(15.0);
-  EXPECT_TRUE(std::isnan(incidences[0]));
+  EXPECT_TRUE(std::isnan(wall.views()[0].incidence));
 }
 
 }  // namespace

@@ -65,6 +65,23 @@ TEST(Painting, KnowsTheIncidenceOnAWall) {
   EXPECT_NEAR(cell->bestView().range, aside.norm(), 0.06);
 }
 
+TEST(Painting, AGrazingViewIsWorthTheSameHoweverOftenItIsTaken) {
+  // A floor 1 m below the camera, which sees it at 74 degrees: the frame's surroundings have 20 C.
+  const ThermalMap floor = mapOf({{{-1.0, 1.02, 1.0}, {2, 0, 0}, {0, 0, 5}}});
+  ThermalMap once({.resolution = 0.05, .occupancy = {}}), often({.resolution = 0.05, .occupancy = {}});
+  const auto warm = [](int, int) { return 60.0; };
+  paintOnce({&floor}, warm, once);
+  for (int i = 0; i < 50; ++i) paintOnce({&floor}, warm, often);
+  const CellKey key = floor.keyOf({0.01, 1.02, 3.51});
+  const SurfaceCell* one = once.surface(key);
+  const SurfaceCell* many = often.surface(key);
+  ASSERT_TRUE(one != nullptr && many != nullptr && many->observations == 50);
+  EXPECT_NEAR(one->bestView().incidence, std::atan2(3.5, 1.02), 0.1);  // noisy normals
+  EXPECT_GT(one->sigmaOfMean(), 4.0);
+  EXPECT_NEAR(many->sigmaOfMean(), one->commonSigma(), 0.05);
+  EXPECT_EQ(many->commonSigma(), one->commonSigma());
+}
+
 TEST(Painting, PutsTheAirOfItsOwnDistanceIntoEveryCell) {
   ThermalMap map = mapOf({kWallBehind});
   RadiometricParameters parameters = sc660();

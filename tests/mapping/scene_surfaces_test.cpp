@@ -48,6 +48,20 @@ TEST(SceneSurfaces, KnowTheNormalsOfAWallAlsoAcrossTilesAndNoneOfALonePoint) {
   EXPECT_GT(walls, 10000U);  // 7 m and more across: tiles are 3.2 m wide
 }
 
+TEST(SceneSurfaces, AnswerForAPointAsForAView) {
+  ThermalMap map = mapOf({kPlate, kWallBehind});
+  SceneSurfaces scene({&map}), asked({&map});
+  for (const SceneSurface& surface : inView(scene)) {
+    SCOPED_TRACE(testing::Message() << surface.p_world.transpose());
+    const SceneSurface* answer = asked.surfaceAt(surface.p_world);
+    ASSERT_NE(answer, nullptr);
+    EXPECT_EQ(answer->key, surface.key);
+    EXPECT_EQ(answer->normal, surface.normal);
+  }
+  EXPECT_EQ(asked.surfaceAt({0.0, 0.0, 1.0}), nullptr);     // nothing there
+  EXPECT_EQ(asked.surfaceAt({900.0, 0.0, -1.0}), nullptr);  // nor anywhere near
+}
+
 TEST(SceneSurfaces, LeaveOutWhatIsBehindTheCameraOrTooFar) {
   const ThermalMap map = mapOf({kPlate, kWallBehind});
   SceneSurfaces scene({&map});

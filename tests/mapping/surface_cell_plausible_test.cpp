@@ -58,6 +58,7 @@ TEST(PlausibleCell, HasNoTracesOfTemperaturesThatItDoesNotCount) {
   EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.best_range_cm = 1; }));
   EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.last_code = 1; }));
   EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.max_code = 1; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.common_code = 1; }));
 }
 
 TEST(PlausibleCell, HasSumsThatItsCountsCanGive) {
@@ -73,6 +74,7 @@ TEST(PlausibleCell, HasSumsThatItsCountsCanGive) {
   EXPECT_FALSE(passes(cell, scaled(1e4)));  // more than five observations of the smallest sigma
   EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.weight_sum = 4; }));
   EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.weight_sum = 0; }));
+  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.common_code = 200; }));  // 20 C: too heavy for that
 }
 
 TEST(PlausibleCell, HasMomentsThatFitItsExtremes) {

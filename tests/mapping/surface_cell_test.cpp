@@ -27,9 +27,10 @@ SurfaceCell randomCell(std::mt19937& rng) {
   const int temperatures = static_cast<int>(20 * unit(rng));
   for (int i = 0; i < temperatures; ++i) {
     const auto incidence = unit(rng) < 0.2 ? std::nanf("") : static_cast<float>(1.5 * unit(rng));
-    cell.addTemperature(
-        seen(-50 + 200 * unit(rng), 0.05 + unit(rng), static_cast<float>(20 * unit(rng)), incidence),
-        kNoon + std::chrono::milliseconds(static_cast<int>(1e6 * unit(rng))));
+    TemperatureObservation observation =
+        seen(-50 + 200 * unit(rng), 0.05 + unit(rng), static_cast<float>(20 * unit(rng)), incidence);
+    if (unit(rng) < 0.5) observation.common_sigma = static_cast<float>(unit(rng));
+    cell.addTemperature(observation, kNoon + std::chrono::milliseconds(static_cast<int>(1e6 * unit(rng))));
   }
   return cell;
 }

@@ -1,16 +1,16 @@
-#include "apps/overlay_edges.hpp"
+#include "io/mission_pictures.hpp"
 
 #include <vector>
 
 namespace thermovox {
 
-OverlayEdges::OverlayEdges(const OpenedMission& opened, Duration within)
+MissionPictures::MissionPictures(const OpenedMission& opened, Duration within)
     : mission_(opened.mission),
       pictures_(*opened.visible_list, opened.folder, opened.mission.rig.visible_camera->camera),
       within_(within) {}
 
-std::shared_ptr<const RegisteredPicture> OverlayEdges::on(Time frame,
-                                                          std::span<const Eigen::Vector3d> points_world) {
+std::shared_ptr<const RegisteredPicture> MissionPictures::on(Time frame,
+                                                             std::span<const Eigen::Vector3d> points_world) {
   std::optional<VisibleFrame> visible = pictures_.nearest(frame, within_);
   if (!visible) return nullptr;
   const auto body_then = mission_.trajectory.at(frame);

@@ -10,11 +10,11 @@
 namespace thermovox {
 
 /// The visible pictures of a mission on its thermal frames, by the rig, the poses and the laser's points.
-class OverlayEdges {
+class MissionPictures {
  public:
   /// The mission, which has to have a thermal and a visible camera and visible pictures, must outlive it. A
   /// picture belongs to a frame at most `within` away in time.
-  OverlayEdges(const OpenedMission& opened, Duration within);
+  MissionPictures(const OpenedMission& opened, Duration within);
 
   /// The picture nearest in time to the frame, brought onto its pixels: each by the distance of the laser
   /// point that is nearest in the image. `points_world`: those that the frame sees, metres. Null where no
