@@ -5,14 +5,16 @@
 #include <limits>
 #include <variant>
 
+#include "projection/error.hpp"
+
 namespace thermovox {
 namespace {
 
-constexpr std::size_t kEach = 64;  // readings of no more returns are taken wholly
-constexpr std::size_t kStep = 32;  // of longer ones every so many-th
-constexpr double kLeastCosine =
-    0.3;  // of the angle between ray and normal: beyond 73 degrees nothing is located
-constexpr std::int32_t kReach = 2;  // cubes
+constexpr std::size_t kEach = 64;     // readings of no more returns are taken wholly
+constexpr std::size_t kStep = 32;     // of longer ones every so many-th
+constexpr double kLeastCosine = 0.3;  // of ray and normal: beyond 73 degrees nothing is located
+constexpr std::int32_t kReach = 2;    // cubes
+constexpr double kWorld = 1 << 30;    // cubes from the origin, further than any map reaches
 
 BlockKey cubeOf(const Eigen::Vector3d& p_world) {
   const Eigen::Vector3d cube = (p_world / SharedMotion::kEdge).array().floor();
@@ -21,8 +23,8 @@ BlockKey cubeOf(const Eigen::Vector3d& p_world) {
 }
 
 double squaredDistance(const BlockKey& a, const BlockKey& b) {
-  const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-  return x * x + y * y + z * z;
+  const Eigen::Vector3d apart = Eigen::Vector3d(a.x, a.y, a.z) - Eigen::Vector3d(b.x, b.y, b.z);
+  return apart.squaredNorm();
 }
 
 /// The lasers' motions in the cube that holds the point, or in the nearest one (the first of equals).
@@ -118,9 +120,17 @@ std::vector<SharedMotion> moved(std::span<const SharedMotion> motions, const Pos
   for (const SharedMotion& motion : motions) {
     const Eigen::Vector3d centre =
         (Eigen::Vector3d(motion.cube.x, motion.cube.y, motion.cube.z).array() + 0.5) * SharedMotion::kEdge;
-    SharedMotion turned{
-        cubeOf(T_world_map * centre), motion.laser,        motion.count,     R * motion.by_rotation,
-        R * motion.by_translation,    R * motion.by_range, R * motion.lever, R * motion.view};
+    const Eigen::Vector3d there = T_world_map * centre;
+    if (!((there / SharedMotion::kEdge).cwiseAbs().maxCoeff() < kWorld))
+      throw DataError("is moved out of the world, expected it nearer to the origin");
+    SharedMotion turned{cubeOf(there),
+                        motion.laser,
+                        motion.count,
+                        R * motion.by_rotation,
+                        R * motion.by_translation,
+                        R * motion.by_range,
+                        R * motion.lever,
+                        R * motion.view};
     const auto [place, is_new] = by_cube.try_emplace({turned.cube, turned.laser}, turned);
     if (!is_new) place->second = average(place->second, turned);
   }
