@@ -127,7 +127,8 @@ MissionRecord recordOf(const OpenedMission& opened, const MissionReport& report,
           .last = report.last_stamp,
           .ambient = opened.mission.ambient,
           .pose_sigmas = {opened.mission.pose_rotation_sigma, opened.mission.pose_translation_sigma},
-          .shared_motions = report.shared_motions};
+          .shared_motions = report.shared_motions,
+          .frame_poses = report.frame_poses};
 }
 
 std::unique_ptr<PointsRecord> openRecord(const MapJob& job) {

@@ -30,8 +30,9 @@ Json viewJson(const Hotspot& spot) {
   return {{"range", spot.best_view.range},
           {"incidence", known ? Json(spot.best_view.incidence) : Json(nullptr)},
           {"pixels", spot.pixels},
-          {"frame", nullptr},
-          {"pixel", nullptr}};
+          {"frame", spot.best_frame ? Json(toUnixSeconds(spot.best_frame->stamp)) : Json(nullptr)},
+          {"pixel",
+           spot.best_frame ? Json({spot.best_frame->pixel.x(), spot.best_frame->pixel.y()}) : Json(nullptr)}};
 }
 
 Json rowJson(const HotspotRow& row) {

@@ -10,6 +10,7 @@
 
 #include "io/sqlite.hpp"
 #include "io/station_file.hpp"
+#include "mapping/mission_report.hpp"
 #include "mapping/shared_errors.hpp"
 #include "mapping/thermal_map.hpp"
 #include "projection/pose.hpp"
@@ -32,6 +33,7 @@ struct MissionRecord {
   std::optional<double> ambient;        ///< of the air, C, as the mission says
   PoseSigmas pose_sigmas;
   std::vector<SharedMotion> shared_motions;  ///< how shared errors move what it mapped
+  std::vector<FramePose> frame_poses;        ///< where its frames were taken
 };
 
 /// What to do with a mission whose name the station has already.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "io/rig_file.hpp"
+#include "mapping/best_frame.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -28,6 +29,7 @@ std::vector<Hotspot> hotspotsOf(const SurfaceLayer& layer, const MissionRecord& 
   for (Hotspot& spot : spots) {
     spot.position.common = sharedCovariance(spot.position.p_world, spot.normal, mission.shared_motions, rig,
                                             mission.pose_sigmas);
+    if (rig.thermal_camera) findBestFrame(spot, mission.frame_poses, *rig.thermal_camera, layer.resolution());
   }
   return spots;
 }

@@ -71,6 +71,9 @@ void move(Merge& merge, const SqlDatabase& database, const MergeInput& input,
   record.T_world_mission =
       record.T_world_mission ? *input.T_world_station * *record.T_world_mission : *input.T_world_station;
   record.shared_motions = moved(record.shared_motions, *input.T_world_station);
+  for (FramePose& frame : record.frame_poses) {
+    frame.T_world_camera = *input.T_world_station * frame.T_world_camera;
+  }
   if (!mission.layer) return;
   mission.layer =
       std::make_unique<LayerTiles>(movedTiles(merge, StationTiles(database, input.station, id), input));

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "io/frame_pose_codec.hpp"
 #include "io/number_text.hpp"
 #include "io/pose_text.hpp"
 #include "io/shared_motion_codec.hpp"
@@ -23,7 +24,7 @@ CREATE TABLE missions (
   readings INTEGER NOT NULL, points INTEGER NOT NULL, coloured INTEGER NOT NULL,
   first_ns INTEGER, last_ns INTEGER, version TEXT NOT NULL, mapped_at INTEGER NOT NULL,
   T_world_mission TEXT, ambient REAL, pose_rotation_sigma REAL NOT NULL, pose_translation_sigma REAL NOT NULL,
-  shared_motions BLOB NOT NULL, has_layer INTEGER NOT NULL);
+  shared_motions BLOB NOT NULL, frame_poses BLOB NOT NULL, has_layer INTEGER NOT NULL);
 CREATE TABLE tiles (
   x INTEGER NOT NULL, y INTEGER NOT NULL, z INTEGER NOT NULL,
   blocks INTEGER NOT NULL, surfaces INTEGER NOT NULL, data BLOB NOT NULL, PRIMARY KEY (x, y, z));
@@ -35,7 +36,8 @@ CREATE TABLE layers (
 constexpr const char* kMissionColumns =
     "name, rig, parameters, readings, points, coloured, first_ns, last_ns, version, mapped_at";
 constexpr const char* kLaterColumns =
-    "T_world_mission, ambient, pose_rotation_sigma, pose_translation_sigma, shared_motions, has_layer";
+    "T_world_mission, ambient, pose_rotation_sigma, pose_translation_sigma, shared_motions, frame_poses, "
+    "has_layer";
 
 /// The options by their keys in `meta`; one list for writing and reading.
 auto optionFields(auto& options) {
@@ -81,6 +83,7 @@ void readErrors(const SqlStatement& row, MissionRecord& record, const std::files
   record.pose_sigmas = {row.real(12), row.real(13)};
   try {
     record.shared_motions = decodeSharedMotions(row.blob(14));
+    record.frame_poses = decodeFramePoses(row.blob(15));
   } catch (const DataError& error) {
     throw DataError(path.string() + ": is damaged, mission " + inQuotes(record.name) + ": " + error.what());
   }
@@ -105,7 +108,7 @@ void writeStationMeta(SqlDatabase& database, const ThermalMap::Options& options)
 void insertMission(SqlDatabase& database, const MissionRecord& record, HasLayer has_layer) {
   SqlStatement insert =
       database.prepare("INSERT INTO missions (" + std::string(kMissionColumns) + ", " + kLaterColumns +
-                       ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                       ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bindText(1, record.name).bindText(2, record.rig).bindText(3, record.parameters);
   insert.bind(4, record.readings).bind(5, record.points).bind(6, record.coloured);
   if (record.first) insert.bind(7, record.first->time_since_epoch().count());
@@ -115,7 +118,8 @@ void insertMission(SqlDatabase& database, const MissionRecord& record, HasLayer 
   if (record.ambient) insert.bindReal(12, *record.ambient);
   insert.bindReal(13, record.pose_sigmas.rotation).bindReal(14, record.pose_sigmas.translation);
   insert.bindBlob(15, encodeSharedMotions(record.shared_motions));
-  insert.bind(16, has_layer == HasLayer::yes ? 1 : 0).run();
+  insert.bindBlob(16, encodeFramePoses(record.frame_poses));
+  insert.bind(17, has_layer == HasLayer::yes ? 1 : 0).run();
 }
 
 bool hasLayer(const SqlDatabase& database, std::int64_t mission_id) {

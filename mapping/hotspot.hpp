@@ -24,6 +24,12 @@ struct Estimate {
   double sigma = 0.0;  ///< one standard deviation
 };
 
+/// A place in a thermal frame.
+struct SeenInFrame {
+  Time stamp;             ///< of the frame
+  Eigen::Vector2d pixel;  ///< (u, v)
+};
+
 /// Where the error of a hot spot's position comes from, world frame, m^2.
 struct HotspotPosition {
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();  ///< of the peak, metres
@@ -51,7 +57,8 @@ struct Hotspot {
   std::uint64_t observations = 0;
   SurfaceCell::View best_view{};  ///< of its cells: the one with the most pixels
   double pixels = 0.0;            ///< of the best view, on the spot's cells
-  bool reads_low = false;         ///< under 3 x 3 pixels, or wider blur than can be put back
+  std::optional<SeenInFrame> best_frame;
+  bool reads_low = false;  ///< under 3 x 3 pixels, or wider blur than can be put back
   Time first_seen;
   Time last_seen;
 };

@@ -101,6 +101,7 @@ void MissionMapper::add(ThermalFrame frame) {
   const std::variant<Pose, NoPose> T_world_body = mission_.trajectory.at(frame.stamp);
   if (const Pose* pose = std::get_if<Pose>(&T_world_body)) {
     T_world_camera = *pose * mission_.rig.thermal_camera->T_body_camera;
+    report_.frame_poses.push_back({frame.stamp, *T_world_camera});
   } else {
     ++report_.frames_without_pose;
   }

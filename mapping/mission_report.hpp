@@ -42,6 +42,12 @@ using UncolouredCounts = ReasonCounts<Uncoloured, 6>;
 [[nodiscard]] std::map<std::string, std::size_t> namedCounts(const DroppedCounts& counts);
 [[nodiscard]] std::map<std::string, std::size_t> namedCounts(const UncolouredCounts& counts);
 
+/// Where the camera was when a frame was taken.
+struct FramePose {
+  Time stamp;
+  Pose T_world_camera;
+};
+
 /// What became of a mission's returns: points = coloured + uncoloured; dropped ones never entered the map.
 struct MissionReport {
   std::string mission;
@@ -59,6 +65,7 @@ struct MissionReport {
   std::size_t frames_without_pose = 0;
   std::optional<Time> first_stamp;  ///< of the points
   std::optional<Time> last_stamp;
+  std::vector<FramePose> frame_poses;        ///< of the frames that have one
   std::vector<SharedMotion> shared_motions;  ///< how shared errors move the returns, by place
 };
 

@@ -168,7 +168,8 @@ TEST_F(AssetSurveys, CoverageCountsTheSurfaceThatOtherMissionsKnow) {
   EXPECT_EQ(found[0].state, AssetState::not_seen);
   EXPECT_EQ(found[0].surface_cells, 100U);
   const SurfaceLayer coarse(ThermalMap({.resolution = 0.2}));
-  EXPECT_THROW(surveyAssets(assets, {.scene = scene, .layer = coarse, .hotspots = {}}), ConfigError);
+  const AssetInspection wrong{.scene = scene, .layer = coarse, .hotspots = {}};
+  EXPECT_THROW(static_cast<void>(surveyAssets(assets, wrong)), ConfigError);
 }
 
 }  // namespace
