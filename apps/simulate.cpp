@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct SimulateArgs {
   simulate::SimulationOptions options;
   fs::path out;
   bool force = false;
-  std::vector<CLI::Option*> of_rjpeg;  ///< options that only radiometric frames heed
+  std::vector<double> extrinsic_sigma;  ///< degrees, metres
+  std::vector<double> pose_sigma;       ///< degrees, metres
+  std::vector<CLI::Option*> of_rjpeg;   ///< options that only radiometric frames heed
 };
 
 const std::map<std::string, LaserKind> kLaserKinds{
@@ -78,6 +81,31 @@ void replaceMission(const simulate::SimulationOptions& options, const fs::path& 
   truth.discard();
 }
 
+/// One sigma an axis, the axes independent of each other.
+Matrix6d isotropic(double rotation, double translation) {
+  Vector6d variances;
+  variances.head<3>().setConstant(rotation * rotation);
+  variances.tail<3>().setConstant(translation * translation);
+  return variances.asDiagonal();
+}
+
+void takeErrors(SimulateArgs& args) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  simulate::DeclaredErrors& errors = args.options.errors;
+  for (const std::vector<double>* sigmas : {&args.extrinsic_sigma, &args.pose_sigma}) {
+    for (const double sigma : *sigmas) {
+      if (!(sigma >= 0.0)) throw UsageError("simulate: found a negative sigma, expected 0 or more");
+    }
+  }
+  if (!args.extrinsic_sigma.empty()) {
+    errors.covariance_body_laser = isotropic(args.extrinsic_sigma[0] * kDegree, args.extrinsic_sigma[1]);
+  }
+  if (!args.pose_sigma.empty()) {
+    errors.pose_rotation_sigma = args.pose_sigma[0] * kDegree;
+    errors.pose_translation_sigma = args.pose_sigma[1];
+  }
+}
+
 void checkUsage(const SimulateArgs& args) {
   if (args.options.frames != simulate::FrameFormat::rjpeg)
     refuseOptions(args.of_rjpeg,
@@ -90,7 +118,8 @@ void checkUsage(const SimulateArgs& args) {
   }
 }
 
-void runSimulate(const SimulateArgs& args) {
+void runSimulate(SimulateArgs& args) {
+  takeErrors(args);
   checkUsage(args);
   checkFolderOf(withoutSlash(args.out));
   if (args.force) {
@@ -100,6 +129,28 @@ void runSimulate(const SimulateArgs& args) {
   }
   std::cout << "mission " << args.out.string() << "\ntruth   " << simulate::truthPath(args.out).string()
             << '\n';
+}
+
+/// What the mission declares of its errors, and is made with.
+void addErrors(CLI::App& verb, SimulateArgs& args) {
+  simulate::DeclaredErrors& errors = args.options.errors;
+  const std::string drawn = "; declared in the files, and drawn once: OUT.truth.json says what";
+  verb.add_option("--extrinsic-sigma", args.extrinsic_sigma,
+                  "Error of the laser's place on the body, one sigma an axis: rotation [degrees] and "
+                  "translation [m]" +
+                      drawn)
+      ->expected(2)
+      ->type_name("DEG M");
+  verb.add_option("--pose-sigma", args.pose_sigma,
+                  "Error that all poses share, likewise: rotation [degrees] and translation [m]")
+      ->expected(2)
+      ->type_name("DEG M");
+  verb.add_option("--range-bias-sigma", errors.range_bias_sigma,
+                  "Error that all ranges share, one sigma, likewise [m]")
+      ->capture_default_str();
+  verb.add_option("--bias-sigma", errors.camera_bias_sigma,
+                  "Error that all temperatures share, one sigma, likewise [C]")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -136,6 +187,7 @@ void addSimulate(CLI::App& app) {
       "--visible", [&options] { options.visible = simulate::SimulationOptions::VisibleCamera::present; },
       "A visible camera beside the thermal one, 640 x 480: its pictures and its place in the rig");
   verb->add_option("--range-sigma", options.range_sigma, "Range noise, one sigma [m]")->capture_default_str();
+  addErrors(*verb, *args);
   verb->add_flag("--force", args->force, "Replace a mission that is there");
   verb->callback([args] { runSimulate(*args); });
 }

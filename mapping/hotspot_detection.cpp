@@ -20,10 +20,10 @@ constexpr double kGap = 0.15;                 // metres between a spot and its s
 constexpr double kBand = 2.0;                 // cells off its plane that a peak is fitted to
 constexpr double kMostBlur = 0.75;            // of the variance of a peak's shape that blur may make up
 constexpr double kInterpolation = 1.0 / 6.0;  // variance of linear interpolation, px^2
-constexpr double kBlurSigma = 0.2;            // of the blur itself, as a share
-constexpr double kLeastModelError = 0.01;     // of a peak's rise
-constexpr double kLeastSurfaceSigma = 5e-4;   // metres
-constexpr double kExplained = 0.3;            // of its excess that a piece may differ from a model by
+constexpr double kBlurSigma = 0.05;  // of the blur itself, as a share: a rig tells it with one or two digits
+constexpr double kLeastModelError = 0.01;    // of a peak's rise
+constexpr double kLeastSurfaceSigma = 5e-4;  // metres
+constexpr double kExplained = 0.3;           // of its excess that a piece may differ from a model by
 
 /// A cluster on the way to a hot spot.
 struct Candidate {
@@ -139,7 +139,7 @@ class Detection {
       const double off = candidate.normal.dot(sample.p_world - candidate.centroid);
       const bool own = std::binary_search(candidate.cells.begin(), candidate.cells.end(), i);
       if (!own && (hot_[i] || std::abs(off) > kBand * layer_.resolution())) continue;
-      samples.push_back({sample.p_world, sample.celsius, sample.sigma});
+      samples.push_back({sample.p_world, sample.celsius, sample.sigma, sample.returns});
     }
     return samples;
   }
@@ -148,12 +148,14 @@ class Detection {
   void putOnSurface(const std::vector<PeakSample>& samples, const PeakModel& model, PeakPrior& prior) const {
     prior.guess.centre = model.centre;
     if (prior.normal.isZero()) return;
-    std::vector<Eigen::Vector3d> near;
+    std::vector<SurfacePoint> near;
     const double radius = std::max(2.0 * model.width, 3.0 * layer_.resolution());
     for (const PeakSample& sample : samples) {
-      if ((sample.p_world - model.centre).norm() < radius) near.push_back(sample.p_world);
+      if (sample.returns > 0 && (sample.p_world - model.centre).norm() < radius) {
+        near.push_back({sample.p_world, static_cast<double>(sample.returns)});
+      }
     }
-    if (const auto height = surfaceHeight(near, model.centre, prior.normal)) {
+    if (const auto height = surfaceHeight(near, model.centre, prior.normal, layer_.resolution())) {
       prior.guess.centre += height->height * prior.normal;
       prior.surface_sigma = std::max(height->sigma, kLeastSurfaceSigma);
     }

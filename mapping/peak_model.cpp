@@ -10,7 +10,8 @@ namespace thermovox {
 namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-constexpr int kPriors = 5;  // rows of what is known before
+constexpr int kPriors = 5;       // rows of what is known before
+constexpr double kTrust = 10.0;  // samples that the sigmas' own word stands for against the scatter
 
 PeakModel modelOf(const Eigen::VectorXd& x) {
   return {x.head<3>(), std::exp(x[3]), std::exp(x[4]), x[5]};
@@ -109,15 +110,20 @@ std::optional<PeakFit> fitPeak(std::span<const PeakSample> samples, const PeakPr
   }
   Eigen::MatrixXd jacobian(problem.values(), 6);
   problem.df(x, jacobian);
-  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> information(
-      Eigen::Matrix<double, 6, 6>(jacobian.transpose() * jacobian));
-  if (information.info() != Eigen::Success || !information.isPositive()) return std::nullopt;
   Eigen::VectorXd residuals(problem.values());
   problem(x, residuals);
-  const double freedom = std::max(static_cast<double>(samples.size()) - 6.0, 1.0);
-  const double chi2 = residuals.head(static_cast<Eigen::Index>(samples.size())).squaredNorm() / freedom;
-  fit.misfit = std::sqrt(chi2);
-  fit.covariance = information.solve(Eigen::Matrix<double, 6, 6>::Identity()) * std::max(chi2, 1.0);
+  const auto n = static_cast<Eigen::Index>(samples.size());
+  const double freedom = std::max(static_cast<double>(n) - 6.0, 1.0);
+  const double chi2 = residuals.head(n).squaredNorm();
+  fit.misfit = std::sqrt(chi2 / freedom);
+  // The scale of a variance by scatter and prior (scaled inverse chi squared). The surface's height is not
+  // known by temperatures: what is known before keeps its own scale.
+  const double scale = (chi2 + kTrust) / (freedom + kTrust);
+  Eigen::Matrix<double, 6, 6> known = jacobian.topRows(n).transpose() * jacobian.topRows(n) / scale;
+  known += jacobian.bottomRows(kPriors).transpose() * jacobian.bottomRows(kPriors);
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> information(known);
+  if (information.info() != Eigen::Success || !information.isPositive()) return std::nullopt;
+  fit.covariance = information.solve(Eigen::Matrix<double, 6, 6>::Identity());
   return fit;
 }
 

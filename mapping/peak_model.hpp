@@ -13,7 +13,8 @@ namespace thermovox {
 struct PeakSample {
   Eigen::Vector3d p_world;  ///< metres
   double celsius;
-  double sigma;  ///< of the temperature, C
+  double sigma;               ///< of the temperature, C
+  std::uint32_t returns = 0;  ///< of lasers, that the place is the mean of
 };
 
 /// The shape of a small heat source as a map shows it: T(p) = reference + rise exp(-|p - centre|^2 / (2
@@ -29,8 +30,9 @@ struct PeakModel {
 
 struct PeakFit {
   PeakModel model;
-  /// Of centre x y z (m), ln rise, ln width, reference (C); widened where the samples scatter more about the
-  /// model than their sigmas say.
+  /// Of centre x y z (m), ln rise, ln width, reference (C), for the scatter that the samples have about the
+  /// model: their sigmas also hold what blur takes off a slope, the same on all sides of a peak, which the
+  /// model's width and rise take up.
   Eigen::Matrix<double, 6, 6> covariance;
   double misfit = 0.0;  ///< robust root mean square of the samples about the model, in their sigmas
 };

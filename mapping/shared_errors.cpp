@@ -15,6 +15,7 @@ constexpr std::size_t kStep = 32;     // of longer ones every so many-th
 constexpr double kLeastCosine = 0.3;  // of ray and normal: beyond 73 degrees nothing is located
 constexpr std::int32_t kReach = 2;    // cubes
 constexpr double kWorld = 1 << 30;    // cubes from the origin, further than any map reaches
+constexpr double kViewSigma = 0.05;  // radians: what a body moves while it passes, a fifth of a metre at four
 
 BlockKey cubeOf(const Eigen::Vector3d& p_world) {
   const Eigen::Vector3d cube = (p_world / SharedMotion::kEdge).array().floor();
@@ -51,6 +52,23 @@ Eigen::Matrix3d alongTheView(const Eigen::Vector3d& view, const Eigen::Vector3d&
   return d * normal.transpose() / std::copysign(std::max(std::abs(cosine), kLeastCosine), cosine);
 }
 
+/// What the direction of the view is wrong by: a spot was not seen from just where the rest of its cube was.
+/// On the surface, across the view, in proportion to what the spot moves along it.
+Eigen::Matrix3d offTheView(const Eigen::Matrix3d& along, const Eigen::Vector3d& view,
+                           const Eigen::Vector3d& normal) {
+  if (normal.isZero() || view.norm() < 1e-3) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d on_surface = Eigen::Matrix3d::Identity() - normal * normal.transpose();
+  return kViewSigma * kViewSigma * along.trace() * on_surface;
+}
+
+/// The motion of a place `off` the one that it is of; lever and view lead there.
+SharedMotion carried(SharedMotion motion, const Eigen::Vector3f& off) {
+  motion.by_rotation -= skew(off.cast<double>()).cast<float>() * motion.by_translation;
+  motion.lever += off;
+  if (!motion.view.isZero()) motion.view += off;
+  return motion;
+}
+
 /// Of both together, by their counts.
 SharedMotion average(const SharedMotion& a, const SharedMotion& b) {
   const float total = static_cast<float>(a.count) + static_cast<float>(b.count);
@@ -62,7 +80,9 @@ SharedMotion average(const SharedMotion& a, const SharedMotion& b) {
           of_a * a.by_translation + of_b * b.by_translation,
           of_a * a.by_range + of_b * b.by_range,
           of_a * a.lever + of_b * b.lever,
-          of_a * a.view + of_b * b.view};
+          a.view.isZero()   ? b.view
+          : b.view.isZero() ? a.view
+                            : Eigen::Vector3f(of_a * a.view + of_b * b.view)};
 }
 
 /// Of one laser's own errors.
@@ -77,7 +97,6 @@ Eigen::Matrix3d laserCovariance(const SharedMotion& motion, const Laser& laser) 
 }  // namespace
 
 void SharedMotions::add(std::span<const PlacedReturn> reading, std::size_t laser_index) {
-  const Laser& laser = mission_.rig.lasers[laser_index];
   const std::size_t step = reading.size() <= kEach ? 1 : kStep;
   for (std::size_t i = 0; i < reading.size(); i += step) {
     const PlacedReturn& placed = reading[i];
@@ -85,18 +104,20 @@ void SharedMotions::add(std::span<const PlacedReturn> reading, std::size_t laser
     const Pose* T_world_body = std::get_if<Pose>(&at);
     if (T_world_body == nullptr) continue;
     const Eigen::Matrix3d R_world_body = T_world_body->matrix();
-    const Eigen::Vector3d p_body = T_world_body->inverse() * placed.p_world;
-    Sums& sums = sums_[{cubeOf(placed.p_world), static_cast<std::uint32_t>(laser_index)}];
+    const BlockKey cube = cubeOf(placed.p_world);
+    const Eigen::Vector3d centre = SharedMotion{.cube = cube}.centre();
+    Sums& sums = sums_[{cube, static_cast<std::uint32_t>(laser_index)}];
     ++sums.count;
-    sums.by_rotation -= R_world_body * skew(p_body - laser.T_body_laser.translation);
+    sums.by_rotation -= skew(centre - placed.origin_world) * R_world_body;
     sums.by_translation += R_world_body;
     sums.by_range += (placed.p_world - placed.origin_world).normalized();
-    sums.lever += placed.p_world - T_world_body->translation;
+    sums.lever += centre - T_world_body->translation;
     if (!mission_.rig.thermal_camera) continue;
     const ThermalCamera& camera = *mission_.rig.thermal_camera;
-    const Eigen::Vector3d p_camera = camera.T_body_camera.inverse() * p_body;
-    if (camera.camera.project(p_camera)) {
-      sums.view += R_world_body * (camera.T_body_camera.rotation * p_camera.normalized());
+    const Pose T_world_camera = *T_world_body * camera.T_body_camera;
+    if (camera.camera.project(T_world_camera.inverse() * placed.p_world)) {
+      ++sums.in_view;
+      sums.view += centre - T_world_camera.translation;
     }
   }
 }
@@ -109,7 +130,7 @@ std::vector<SharedMotion> SharedMotions::means() const {
     motions.push_back({std::get<0>(key), std::get<1>(key), sums.count,
                        (sums.by_rotation * share).cast<float>(), (sums.by_translation * share).cast<float>(),
                        (sums.by_range * share).cast<float>(), (sums.lever * share).cast<float>(),
-                       (sums.view * share).cast<float>()});
+                       (sums.view / std::max(sums.in_view, 1U)).cast<float>()});
   }
   return motions;
 }
@@ -118,12 +139,10 @@ std::vector<SharedMotion> moved(std::span<const SharedMotion> motions, const Pos
   const Eigen::Matrix3f R = T_world_map.matrix().cast<float>();
   std::map<std::tuple<BlockKey, std::uint32_t>, SharedMotion> by_cube;
   for (const SharedMotion& motion : motions) {
-    const Eigen::Vector3d centre =
-        (Eigen::Vector3d(motion.cube.x, motion.cube.y, motion.cube.z).array() + 0.5) * SharedMotion::kEdge;
-    const Eigen::Vector3d there = T_world_map * centre;
-    if (!((there / SharedMotion::kEdge).cwiseAbs().maxCoeff() < kWorld))
+    const Eigen::Vector3d centre = T_world_map * motion.centre();
+    if (!((centre / SharedMotion::kEdge).cwiseAbs().maxCoeff() < kWorld))
       throw DataError("is moved out of the world, expected it nearer to the origin");
-    SharedMotion turned{cubeOf(there),
+    SharedMotion turned{cubeOf(centre),
                         motion.laser,
                         motion.count,
                         R * motion.by_rotation,
@@ -131,6 +150,7 @@ std::vector<SharedMotion> moved(std::span<const SharedMotion> motions, const Pos
                         R * motion.by_range,
                         R * motion.lever,
                         R * motion.view};
+    turned = carried(turned, (turned.centre() - centre).cast<float>());
     const auto [place, is_new] = by_cube.try_emplace({turned.cube, turned.laser}, turned);
     if (!is_new) place->second = average(place->second, turned);
   }
@@ -143,21 +163,24 @@ Eigen::Matrix3d sharedCovariance(const Eigen::Vector3d& p_world, const Eigen::Ve
                                  std::span<const SharedMotion> motions, const Rig& rig,
                                  const PoseSigmas& pose) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  const std::vector<SharedMotion> here = motionsAt(p_world, motions);
+  std::vector<SharedMotion> here = motionsAt(p_world, motions);
+  if (here.empty()) return covariance;
   double total = 0.0;
-  for (const SharedMotion& motion : here) total += motion.count;
-  Eigen::Vector3d lever = Eigen::Vector3d::Zero(), view = Eigen::Vector3d::Zero();
-  for (const SharedMotion& motion : here) {
-    lever += motion.count / total * motion.lever.cast<double>();
-    view += motion.count / total * motion.view.cast<double>();
+  for (SharedMotion& motion : here) {
+    motion = carried(motion, (p_world - motion.centre()).cast<float>());
+    total += motion.count;
   }
+  SharedMotion all = here.front();
+  for (std::size_t i = 1; i < here.size(); ++i) all = average(all, here[i]);
+  const Eigen::Vector3d lever = all.lever.cast<double>();
+  const Eigen::Vector3d view = all.view.cast<double>();
   const Eigen::Matrix3d to_spot = alongTheView(view, normal);
   for (const SharedMotion& motion : here) {  // the lasers' errors are independent of each other
     const double share = motion.count / total;
     const Eigen::Matrix3d of_laser = laserCovariance(motion, rig.lasers.at(motion.laser));
     covariance += share * share * to_spot * of_laser * to_spot.transpose();
   }
-  if (here.empty()) return covariance;
+  covariance += offTheView(covariance, view, normal);
   const Eigen::Matrix3d turned = skew(lever);
   covariance += pose.translation * pose.translation * Eigen::Matrix3d::Identity();
   covariance += pose.rotation * pose.rotation * turned * turned.transpose();

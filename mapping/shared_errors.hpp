@@ -15,8 +15,10 @@
 namespace thermovox {
 
 /// How the errors that all measurements of a mission share move the returns of one laser in one cube of the
-/// world: the means of the derivatives over those returns. They are linear in the errors, so the mean of the
-/// returns moves by the mean of the derivatives; returns that were seen from all sides move less than each.
+/// world: the means of the derivatives over those returns, each as if it lay in the cube's centre, so that
+/// what holds at any other place follows (a metre at four metres is a quarter of a radian of the view). They
+/// are linear in the errors, so the mean of the returns moves by the mean of the derivatives; returns that
+/// were seen from all sides move less than each.
 struct SharedMotion {
   /// Edge of a cube, metres: within it the derivatives hardly change.
   static constexpr double kEdge = 1.0;
@@ -27,8 +29,13 @@ struct SharedMotion {
   Eigen::Matrix3f by_rotation = Eigen::Matrix3f::Zero();     ///< of T_body_laser: -R_world_body [R p_laser]x
   Eigen::Matrix3f by_translation = Eigen::Matrix3f::Zero();  ///< of T_body_laser: R_world_body
   Eigen::Vector3f by_range = Eigen::Vector3f::Zero();        ///< the ray's direction
-  Eigen::Vector3f lever = Eigen::Vector3f::Zero();           ///< from the body to the return, world, metres
-  Eigen::Vector3f view = Eigen::Vector3f::Zero();  ///< from the camera to the return; unit vectors' mean
+  Eigen::Vector3f lever = Eigen::Vector3f::Zero();  ///< from the body to the cube's centre, world, metres
+  /// From the camera, where it could see the return, to the cube's centre, world, metres; zero: it saw none.
+  Eigen::Vector3f view = Eigen::Vector3f::Zero();
+
+  [[nodiscard]] Eigen::Vector3d centre() const {
+    return (Eigen::Vector3d(cube.x, cube.y, cube.z).array() + 0.5) * kEdge;
+  }
 };
 
 /// Gathers them while a mission is mapped.
@@ -44,7 +51,7 @@ class SharedMotions {
 
  private:
   struct Sums {
-    std::uint32_t count = 0;
+    std::uint32_t count = 0, in_view = 0;
     Eigen::Matrix3d by_rotation = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d by_translation = Eigen::Matrix3d::Zero();
     Eigen::Vector3d by_range = Eigen::Vector3d::Zero();

@@ -4,41 +4,74 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace thermovox {
 namespace {
 
-constexpr std::size_t kForQuadric = 12;  // points, twice its coefficients
+constexpr std::size_t kForQuadric = 12;  // columns, twice its coefficients
 
-SurfaceHeight meanHeight(const Eigen::VectorXd& heights) {
-  const double mean = heights.mean();
-  const double n = static_cast<double>(heights.size());
-  const double variance = (heights.array() - mean).square().sum() / std::max(n - 1.0, 1.0);
-  return {mean, std::sqrt(variance / n)};
+/// Returns over one place: their mean along the plane and off it, and how many.
+struct Column {
+  Eigen::Vector3d uvh = Eigen::Vector3d::Zero();
+  double returns = 0.0;
+};
+
+std::vector<Column> columnsOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& origin,
+                              const Eigen::Vector3d& normal, double edge) {
+  const Eigen::Vector3d along = normal.unitOrthogonal();
+  Eigen::Matrix3d to_plane;
+  to_plane << along.transpose(), normal.cross(along).transpose(), normal.transpose();
+  std::map<std::pair<int, int>, Column> columns;
+  for (const SurfacePoint& point : points) {
+    const Eigen::Vector3d uvh = to_plane * (point.p_world - origin);
+    Column& column =
+        columns[{static_cast<int>(std::floor(uvh.x() / edge)), static_cast<int>(std::floor(uvh.y() / edge))}];
+    column.uvh += point.returns * uvh;
+    column.returns += point.returns;
+  }
+  std::vector<Column> result;
+  for (const auto& [place, column] : columns) result.push_back({column.uvh / column.returns, column.returns});
+  return result;
+}
+
+SurfaceHeight meanHeight(const std::vector<Column>& columns) {
+  double sum = 0.0, weights = 0.0, squares = 0.0;
+  for (const Column& column : columns) {
+    sum += column.returns * column.uvh.z();
+    weights += column.returns;
+  }
+  const double mean = sum / weights;
+  for (const Column& column : columns) squares += column.returns * std::pow(column.uvh.z() - mean, 2);
+  const double freedom = std::max(static_cast<double>(columns.size()) - 1.0, 1.0);
+  return {mean, std::sqrt(squares / freedom / weights)};
 }
 
 }  // namespace
 
-std::optional<SurfaceHeight> surfaceHeight(std::span<const Eigen::Vector3d> points,
-                                           const Eigen::Vector3d& origin, const Eigen::Vector3d& normal) {
+std::optional<SurfaceHeight> surfaceHeight(std::span<const SurfacePoint> points,
+                                           const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
+                                           double edge) {
   if (points.empty()) return std::nullopt;
-  const Eigen::Vector3d along = normal.unitOrthogonal();
-  const Eigen::Vector3d across = normal.cross(along);
+  const std::vector<Column> columns = columnsOf(points, origin, normal, edge);
+  if (columns.size() < kForQuadric) return meanHeight(columns);
   double scale = 1e-9;
-  for (const Eigen::Vector3d& p : points) scale = std::max(scale, (p - origin).norm());
-  const auto n = static_cast<Eigen::Index>(points.size());
+  for (const Column& column : columns) scale = std::max(scale, column.uvh.head<2>().norm());
+  const auto n = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd terms(n, 6);
   Eigen::VectorXd heights(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Vector3d d = points[static_cast<std::size_t>(i)] - origin;
-    const double u = along.dot(d) / scale, v = across.dot(d) / scale;
+  for (Eigen::Index i = 0; i < n; ++i) {  // by the root of the weight
+    const Column& column = columns[static_cast<std::size_t>(i)];
+    const double u = column.uvh.x() / scale, v = column.uvh.y() / scale;
+    const double root = std::sqrt(column.returns);
     terms.row(i) << 1.0, u, v, u * u, u * v, v * v;
-    heights[i] = normal.dot(d);
+    terms.row(i) *= root;
+    heights[i] = root * column.uvh.z();
   }
-  if (points.size() < kForQuadric) return meanHeight(heights);
   const Eigen::Matrix<double, 6, 6> normal_matrix = terms.transpose() * terms;
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(normal_matrix);
-  if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-9)) return meanHeight(heights);
+  if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-9)) return meanHeight(columns);
   const Eigen::Matrix<double, 6, 1> coefficients = solver.solve(terms.transpose() * heights);
   const double scatter = (heights - terms * coefficients).squaredNorm() / static_cast<double>(n - 6);
   const double share = solver.solve(Eigen::Matrix<double, 6, 1>::Unit(0))[0];

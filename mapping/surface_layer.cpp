@@ -21,6 +21,7 @@ SurfaceSample sampleOf(const CellKey& key, const SurfaceCell& cell, double resol
           static_cast<float>(cell.mean()),
           static_cast<float>(cell.sigmaOfMean()),
           static_cast<std::uint32_t>(cell.observations),
+          static_cast<std::uint32_t>(cell.returns),
           cell.bestView(),
           cell.first(),
           cell.last()};

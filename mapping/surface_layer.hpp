@@ -17,6 +17,7 @@ struct SurfaceSample {
   float celsius;               ///< weighted mean of the observations
   float sigma;                 ///< of that mean, C; the camera's common bias apart
   std::uint32_t observations;  ///< temperatures
+  std::uint32_t returns;       ///< of lasers, that p_world is the mean of; 0: it is the cell's centre
   SurfaceCell::View best_view;
   Time first;  ///< of the temperatures
   Time last;

@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "apps/simulate/hall.hpp"
+#include "apps/simulate/simulation_options.hpp"
 #include "projection/trajectory.hpp"
 
 namespace thermovox::simulate {
-
-/// How the body turns while it flies.
-enum class FlightStyle {
-  facing_rows,  ///< looks across the aisle and nods: the plane or the beam of a laser sweeps the rows
-  along_aisle,  ///< looks ahead and swings from row to row
-};
 
 /// A smooth path down the aisle and back, lap after lap, with a swinging attitude. Analytic: any time has its
 /// exact pose.

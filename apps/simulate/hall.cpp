@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
+
+#include "projection/error.hpp"
 
 namespace thermovox::simulate {
 namespace {
+
+/// Of the planes across x, y and z.
+constexpr double kShellCelsius[3] = {Hall::kEndWallCelsius, Hall::kSideWallCelsius, Hall::kFloorCelsius};
 
 /// The nearest surface found so far along a ray.
 struct Nearest {
@@ -30,12 +36,11 @@ Eigen::Vector3d facing(const Ray& ray, int axis) {
 
 /// The hall's own six planes, met from inside.
 void meetShell(const Ray& ray, const Eigen::Vector3d& low, const Eigen::Vector3d& high, Nearest& nearest) {
-  constexpr double kCelsius[3] = {Hall::kEndWallCelsius, Hall::kSideWallCelsius, Hall::kFloorCelsius};
   for (int axis = 0; axis < 3; ++axis) {
     if (ray.direction[axis] == 0.0) continue;
     const double plane = ray.direction[axis] > 0.0 ? high[axis] : low[axis];
     const double range = (plane - ray.origin[axis]) * ray.inverse[axis];
-    if (range < nearest.range) nearest = {range, kCelsius[axis], facing(ray, axis)};
+    if (range < nearest.range) nearest = {range, kShellCelsius[axis], facing(ray, axis)};
   }
 }
 
@@ -96,11 +101,31 @@ double distanceToCylinder(const Eigen::Vector3d& p, const Cylinder& cylinder) {
 }  // namespace
 
 Hall::Hall(const Eigen::Vector3d& size, std::vector<Box> boxes, std::vector<Cylinder> cylinders,
-           std::vector<HotSpot> hot_spots)
+           std::vector<HotSpot> hot_spots, double warmer)
     : size_(size),
       boxes_(std::move(boxes)),
       cylinders_(std::move(cylinders)),
-      hot_spots_(std::move(hot_spots)) {}
+      hot_spots_(std::move(hot_spots)),
+      warmer_(warmer) {}
+
+Hall Hall::changed(const HallChanges& changes) const {
+  Hall later = *this;
+  later.warmer_ += changes.warmer;
+  for (Box& box : later.boxes_) box.celsius += changes.warmer;
+  for (Cylinder& cylinder : later.cylinders_) cylinder.celsius += changes.warmer;
+  for (HotSpot& spot : later.hot_spots_) spot.peak += changes.warmer;
+  for (const auto& [joint, rise] : changes.joint_rises) {
+    if (joint >= later.hot_spots_.size()) {
+      throw ConfigError("simulate: joint_rises names joint " + std::to_string(joint) +
+                        ", expected less than the hall's " + std::to_string(later.hot_spots_.size()));
+    }
+    HotSpot& spot = later.hot_spots_[joint];
+    spot.peak += rise - spot.delta;
+    spot.delta = rise;
+  }
+  later.boxes_.insert(later.boxes_.end(), changes.boxes.begin(), changes.boxes.end());
+  return later;
+}
 
 std::optional<Hit> Hall::castRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d low(-size_.x() / 2, -size_.y() / 2, 0.0);
@@ -110,6 +135,7 @@ std::optional<Hit> Hall::castRay(const Eigen::Vector3d& origin, const Eigen::Vec
   const Ray ray{origin, direction, direction.cwiseInverse()};
   Nearest nearest;
   meetShell(ray, low, high, nearest);
+  nearest.celsius += warmer_;
   for (const Box& box : boxes_) meetBox(ray, box, nearest);
   for (const Cylinder& cylinder : cylinders_) meetCylinder(ray, cylinder, nearest);
   const double excess = hotSpotExcess(origin + nearest.range * direction);
@@ -121,11 +147,11 @@ NearestSurface Hall::nearestSurface(const Eigen::Vector3d& p) const {
   const auto take = [&nearest](double distance, double celsius) {
     if (distance < nearest.distance) nearest = {celsius, distance};
   };
-  constexpr double kCelsius[3] = {kEndWallCelsius, kSideWallCelsius, kFloorCelsius};
   for (int axis = 0; axis < 3; ++axis) {
     const double low = axis == 2 ? 0.0 : -size_[axis] / 2;
-    take(std::abs(p[axis] - low), kCelsius[axis]);
-    take(std::abs(p[axis] - (low + size_[axis])), kCelsius[axis]);
+    const double celsius = kShellCelsius[axis] + warmer_;
+    take(std::abs(p[axis] - low), celsius);
+    take(std::abs(p[axis] - (low + size_[axis])), celsius);
   }
   for (const Box& box : boxes_) take(distanceToBox(p, box), box.celsius);
   for (const Cylinder& cylinder : cylinders_) take(distanceToCylinder(p, cylinder), cylinder.celsius);

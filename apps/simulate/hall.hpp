@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -30,6 +32,14 @@ struct HotSpot {
   double peak = 0.0;         ///< temperature at its centre, C
 };
 
+/// What has become of a hall since it was built.
+struct HallChanges {
+  double warmer = 0.0;  ///< C, of every surface: a season
+  std::map<std::size_t, double>
+      joint_rises;         ///< C over the surface, by the spot's place in hotSpots(); 0: repaired
+  std::vector<Box> boxes;  ///< that stand there besides, before a joint perhaps
+};
+
 /// Where a ray meets the first surface.
 struct Hit {
   double range = 0.0;        ///< metres from the ray's origin
@@ -47,18 +57,22 @@ struct NearestSurface {
 /// spots. Immutable; all questions may be asked from several threads.
 class Hall {
  public:
-  static constexpr double kFloorCelsius = 20.0;     ///< and of the ceiling
+  static constexpr double kFloorCelsius = 20.0;     ///< and of the ceiling, when it was built
   static constexpr double kEndWallCelsius = 21.0;   ///< walls at x = +-L/2
   static constexpr double kSideWallCelsius = 21.5;  ///< walls at y = +-W/2
 
-  /// Size [L, W, H] in metres.
+  /// Size [L, W, H] in metres; its floor, ceiling and walls are `warmer` by so many C than they were built.
   Hall(const Eigen::Vector3d& size, std::vector<Box> boxes, std::vector<Cylinder> cylinders,
-       std::vector<HotSpot> hot_spots);
+       std::vector<HotSpot> hot_spots, double warmer = 0.0);
+
+  /// The same hall later. Throws ConfigError when a joint is none of its hot spots.
+  [[nodiscard]] Hall changed(const HallChanges& changes) const;
 
   [[nodiscard]] const Eigen::Vector3d& size() const { return size_; }
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
   [[nodiscard]] const std::vector<Cylinder>& cylinders() const { return cylinders_; }
   [[nodiscard]] const std::vector<HotSpot>& hotSpots() const { return hot_spots_; }
+  [[nodiscard]] double warmer() const { return warmer_; }
 
   /// The first surface along a ray from within the hall; `direction` is a unit vector. nullopt when the
   /// origin is outside the hall or a number is not finite.
@@ -81,6 +95,7 @@ class Hall {
   std::vector<Box> boxes_;
   std::vector<Cylinder> cylinders_;
   std::vector<HotSpot> hot_spots_;
+  double warmer_ = 0.0;
 };
 
 }  // namespace thermovox::simulate

@@ -26,7 +26,8 @@ class Caster {
   /// nullopt where nothing is in reach. Always draws one normal number, so that echoes do not shift the noise
   /// of those after them.
   [[nodiscard]] std::optional<Echo> cast(const Eigen::Vector3d& d_laser, Random& random) const {
-    const double noise = simulation_.options().range_sigma * random.normal() + simulation_.rangeBias();
+    const double noise =
+        simulation_.options().range_sigma * random.normal() + simulation_.drawnErrors().range_bias;
     const Eigen::Vector3d d_world = T_world_laser_.rotation * d_laser;
     const std::optional<Hit> hit = simulation_.hall().castRay(T_world_laser_.translation, d_world);
     if (!hit) return std::nullopt;

@@ -28,6 +28,22 @@ Vector6d drawMotion(const Matrix6d& covariance, Random& random) {
   return eigen.eigenvectors() * roots.asDiagonal() * eigen.eigenvectors().transpose() * unit;
 }
 
+DrawnErrors drawErrors(const SimulationOptions& options) {
+  const DeclaredErrors& declared = options.errors;
+  Random random(options.seed, RandomStream::errors);
+  DrawnErrors drawn;
+  drawn.body_laser = drawMotion(declared.covariance_body_laser, random);
+  drawn.pose_rotation = declared.pose_rotation_sigma * random.normal3();
+  drawn.pose_translation = declared.pose_translation_sigma * random.normal3();
+  drawn.range_bias = declared.range_bias_sigma * random.normal();
+  drawn.camera_bias = declared.camera_bias_sigma * random.normal();
+  return drawn;
+}
+
+FlightStyle usualFlight(LaserKind laser) {
+  return laser == LaserKind::cloud ? FlightStyle::along_aisle : FlightStyle::facing_rows;
+}
+
 double sweepRate(const SimulationOptions& options) {
   switch (options.laser) {
     case LaserKind::beam:
@@ -47,21 +63,18 @@ std::size_t countOf(double duration, double rate) {
 }  // namespace
 
 Simulation::Simulation(const SimulationOptions& options)
+    : Simulation(options, makeHall(options.hall_seed.value_or(options.seed))) {}
+
+Simulation::Simulation(const SimulationOptions& options, const Hall& hall)
     : options_(validated(options)),
-      hall_(makeHall(options.hall_seed.value_or(options.seed))),
-      flight_(hall_, options.laser == LaserKind::cloud ? FlightStyle::along_aisle : FlightStyle::facing_rows,
-              options.duration, options.seed),
+      hall_(hall.changed(options.changes)),
+      flight_(hall_, options.flight.value_or(usualFlight(options.laser)), options.duration, options.seed),
       rig_(makeRig(options_)),
-      T_body_laser_(rig_.lasers.front().T_body_laser) {
-  Random random(options_.seed, RandomStream::errors);
-  const Vector6d motion = drawMotion(options_.errors.covariance_body_laser, random);
-  if (!motion.isZero(0.0)) {
-    T_body_laser_.rotation = (expRotation(motion.head<3>()) * T_body_laser_.rotation).normalized();
-    T_body_laser_.translation += motion.tail<3>();
-  }
-  pose_rotation_error_ = expRotation(options_.errors.pose_rotation_sigma * random.normal3());
-  pose_translation_error_ = options_.errors.pose_translation_sigma * random.normal3();
-  range_bias_ = options_.errors.range_bias_sigma * random.normal();
+      T_body_laser_(rig_.lasers.front().T_body_laser),
+      errors_(drawErrors(options_)) {
+  if (errors_.body_laser.isZero(0.0)) return;
+  T_body_laser_.rotation = (expRotation(errors_.body_laser.head<3>()) * T_body_laser_.rotation).normalized();
+  T_body_laser_.translation += errors_.body_laser.tail<3>();
 }
 
 std::vector<StampedPose> Simulation::writtenPoses() const {
@@ -71,8 +84,8 @@ std::vector<StampedPose> Simulation::writtenPoses() const {
 
 Pose Simulation::truePose(Time stamp) const {
   const Pose written = flight_.at(stamp);
-  return {(pose_rotation_error_ * written.rotation).normalized(),
-          written.translation + pose_translation_error_};
+  return {(expRotation(errors_.pose_rotation) * written.rotation).normalized(),
+          written.translation + errors_.pose_translation};
 }
 
 std::size_t Simulation::frameCount() const {

@@ -10,11 +10,22 @@
 
 namespace thermovox::simulate {
 
+/// What was drawn of the declared errors: the truth less what the files say.
+struct DrawnErrors {
+  Vector6d body_laser = Vector6d::Zero();  ///< rotation (radians), translation (metres), body's axes
+  Eigen::Vector3d pose_rotation = Eigen::Vector3d::Zero();     ///< radians, world's axes
+  Eigen::Vector3d pose_translation = Eigen::Vector3d::Zero();  ///< metres, world
+  double range_bias = 0.0;                                     ///< metres: of what the laser says
+  double camera_bias = 0.0;                                    ///< C: of what the camera shows
+};
+
 /// A flight with everything that is true of it: what the files will say and what really is.
 class Simulation {
  public:
-  /// Throws ConfigError when an option cannot be used.
+  /// Through the hall of the options' seed. Throws ConfigError when an option cannot be used.
   explicit Simulation(const SimulationOptions& options);
+  /// Through another one.
+  Simulation(const SimulationOptions& options, const Hall& hall);
 
   [[nodiscard]] const SimulationOptions& options() const { return options_; }
   [[nodiscard]] const Hall& hall() const { return hall_; }
@@ -27,8 +38,7 @@ class Simulation {
   /// The true pose of the body, which differs from the written one by the pose's drawn error.
   [[nodiscard]] Pose truePose(Time stamp) const;
   [[nodiscard]] const Pose& trueBodyLaser() const { return T_body_laser_; }
-  /// The drawn error of all ranges, metres.
-  [[nodiscard]] double rangeBias() const { return range_bias_; }
+  [[nodiscard]] const DrawnErrors& drawnErrors() const { return errors_; }
 
   /// Thermal frames and sweeps of the laser that the flight has, and their stamps.
   [[nodiscard]] std::size_t frameCount() const;
@@ -42,9 +52,7 @@ class Simulation {
   Flight flight_;
   Rig rig_;
   Pose T_body_laser_;
-  Eigen::Quaterniond pose_rotation_error_ = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d pose_translation_error_ = Eigen::Vector3d::Zero();
-  double range_bias_ = 0.0;
+  DrawnErrors errors_;
 };
 
 }  // namespace thermovox::simulate

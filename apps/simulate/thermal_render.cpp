@@ -127,9 +127,8 @@ double ThermalRenderer::countOf(double celsius) const {
 std::vector<std::uint16_t> ThermalRenderer::counts(std::size_t frame) const {
   const std::vector<float> celsius = render(simulation_.truePose(simulation_.frameStamp(frame)));
   const SimulationOptions& options = simulation_.options();
-  Random bias(options.seed, RandomStream::thermal_bias, frame);
   Random noise(options.seed, RandomStream::thermal_noise, frame);
-  const double offset = options.errors.camera_bias_sigma * bias.normal();
+  const double offset = simulation_.drawnErrors().camera_bias;
   std::vector<std::uint16_t> counts;
   counts.reserve(celsius.size());
   for (const float surface : celsius) {

@@ -21,7 +21,8 @@ class ThermalRenderer {
   /// Celsius without noise, row by row, of radiometric frames as one decodes them with distance 0; NaN where
   /// the lens has no ray.
   [[nodiscard]] std::vector<float> render(const Pose& T_world_body) const;
-  /// Counts of the frame with the NETD's noise and the frame's bias, row by row; 0 where the lens has no ray.
+  /// Counts of the frame with the NETD's noise and the camera's bias, row by row; 0 where the lens has no
+  /// ray.
   [[nodiscard]] std::vector<std::uint16_t> counts(std::size_t frame) const;
 
  private:

@@ -36,7 +36,8 @@ Hall hallFrom(const Json& truth) {
     const auto number = [&spot](const char* key) { return spot.at(key).get<double>(); };
     hot_spots.push_back({vectorFrom(spot.at("position")), number("delta"), number("sigma"), number("peak")});
   }
-  return {vectorFrom(truth.at("size")), std::move(boxes), std::move(cylinders), std::move(hot_spots)};
+  return {vectorFrom(truth.at("size")), std::move(boxes), std::move(cylinders), std::move(hot_spots),
+          truth.value("warmer", 0.0)};
 }
 
 Json poseJson(const Pose& pose) {
@@ -63,6 +64,7 @@ std::string truthText(const Simulation& simulation, std::size_t readings) {
     truth["cyls"].push_back(Json::array({c.x, c.y, c.radius, c.top, c.celsius}));
   }
   truth["size"] = vectorJson(hall.size());
+  if (hall.warmer() != 0.0) truth["warmer"] = hall.warmer();
   truth["hotspots"] = Json::array();
   for (const HotSpot& spot : hall.hotSpots()) {
     truth["hotspots"].push_back({{"position", vectorJson(spot.position)},
@@ -71,6 +73,11 @@ std::string truthText(const Simulation& simulation, std::size_t readings) {
                                  {"peak", spot.peak}});
   }
   truth["T_body_laser"] = poseJson(simulation.trueBodyLaser());
+  const DrawnErrors& errors = simulation.drawnErrors();
+  truth["pose_error"] = {{"rotation", vectorJson(errors.pose_rotation)},
+                         {"translation", vectorJson(errors.pose_translation)}};
+  truth["range_bias"] = errors.range_bias;
+  truth["camera_bias"] = errors.camera_bias;
   return truth.dump(1) + "\n";
 }
 

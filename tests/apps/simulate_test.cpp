@@ -219,7 +219,7 @@ TEST(Simulation, DrawnErrorsHaveTheDeclaredCovariance) {
     pose_squares.x() +=
         std::pow(true_first.rotation.angularDistance(first.T_world_body.rotation), 2) / kDraws;
     pose_squares.y() += (true_first.translation - first.T_world_body.translation).squaredNorm() / kDraws;
-    pose_squares.z() += std::pow(simulation.rangeBias(), 2) / kDraws;
+    pose_squares.z() += std::pow(simulation.drawnErrors().range_bias, 2) / kDraws;
   }
   // The variance of a variance over 600 draws is 6 %; four of these.
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(squares[i] / (sigmas[i] * sigmas[i]), 1.0, 0.24) << i;
