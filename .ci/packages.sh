@@ -22,6 +22,8 @@ packages_tidy=(clang clang-tidy-14)
 packages_peers=(libimage-exiftool-perl python3-numpy)
 # To read LAS files with somebody else's reader; without them that test is skipped.
 packages_readers=(nodejs npm)
+# To print reports as PDF, and the letters they are meant in.
+packages_report=(chromium fonts-liberation)
 # Programs to look at results with: CloudCompare, octovis, PCL's viewer.
 packages_view=(cloudcompare octovis pcl-tools)
 

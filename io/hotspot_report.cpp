@@ -101,7 +101,7 @@ std::string countSection(const ReportContents& contents) {
          countOf(contents, [](const HotspotRow& row) { return row.change.alarm; }) +
          " new or growing in the last, " +
          countOf(contents, [](const HotspotRow& row) { return row.spot->reads_low; }) +
-         " that read low.</p>\n<div class=\"columns even\"><div class=\"block\"><h3>By severity</h3>\n" +
+         " that read low.</p>\n<div class=\"columns\"><div class=\"block\"><h3>By severity</h3>\n" +
          factTable(severityCounts(contents)) +
          "</div><div class=\"block\"><h3>By state in the last mission</h3>\n" +
          factTable(stateCounts(contents)) + "</div></div>\n";

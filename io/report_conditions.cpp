@@ -119,8 +119,8 @@ std::string criteriaText(const HotspotCriteria& criteria) {
 std::string conditionSection(const ReportContents& contents) {
   return "<h2 id=\"conditions\">Conditions and criteria</h2>\n<p><b>A hot spot is</b> what has " +
          criteriaText(contents.report.criteria) + ".</p>\n<h3>Air and poses</h3>\n" + ambientTable(contents) +
-         "<h3>Rig</h3>\n" + rigTable(contents) + "<h3>Severity</h3>\n" +
-         severityTable(contents.report.judgement.table);
+         "<h3>Rig</h3>\n" + rigTable(contents) + "<div class=\"block\"><h3>Severity</h3>\n" +
+         severityTable(contents.report.judgement.table) + "</div>\n";
 }
 
 }  // namespace thermovox

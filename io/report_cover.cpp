@@ -108,7 +108,8 @@ std::string mapSection(const ReportContents& contents) {
                             .width_px = 1200,
                             .height_px = 760};
   std::string text =
-      "<h2 id=\"map\">Where they are</h2>\n<p class=\"note\">Surface temperatures as the map of all "
+      "<h2 id=\"map\" class=\"sheet\">Where they are</h2>\n<p class=\"note\">Surface temperatures as the map "
+      "of all "
       "missions holds them; light grey has none. The ceiling and the walls towards the viewer are "
       "cut away. Marks are drawn over everything, also where a part of the plant stands before "
       "the spot.</p>\n";
@@ -123,7 +124,9 @@ std::string mapSection(const ReportContents& contents) {
 }
 
 std::string summarySection(const ReportContents& contents) {
-  std::string text = "<h2 id=\"summary\">The hot spots, the hottest first</h2>\n";
+  const bool is_long = contents.rows.size() > 8;  // too long for what the map leaves of a page
+  std::string text = std::string("<h2 id=\"summary\"") + (is_long ? " class=\"sheet\"" : "") +
+                     ">The hot spots, the hottest first</h2>\n";
   if (contents.rows.empty()) {
     return text + "<p>There is none by the criterion: " + criteriaText(contents.report.criteria) + ". " +
            coverageText(contents) + ".</p>\n";

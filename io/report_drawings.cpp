@@ -68,7 +68,7 @@ std::optional<Eigen::Vector2d> pixelOf(const PictureView& view, const Eigen::Vec
                          view.center_y_px + view.focal_px * p.y() / p.z());
 }
 
-constexpr double kRing = 9.0;      ///< radius of a mark, px
+constexpr double kRing = 13.0;     ///< radius of a mark, px
 constexpr double kLetters = 22.0;  ///< size of its number, px
 
 /// Finds places for numbers beside their marks.
@@ -108,7 +108,7 @@ std::string markDrawing(int id, const Eigen::Vector2d& mark, Labels& labels) {
   return fmt::format(
       "<a href=\"#spot-{0}\"><line x1=\"{1:.1f}\" y1=\"{2:.1f}\" x2=\"{3:.1f}\" y2=\"{4:.1f}\" "
       "stroke=\"#0b4f94\" stroke-width=\"2\"/>"
-      "<circle cx=\"{1:.1f}\" cy=\"{2:.1f}\" r=\"{5:.1f}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"6\"/>"
+      "<circle cx=\"{1:.1f}\" cy=\"{2:.1f}\" r=\"{5:.1f}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"5\"/>"
       "<circle cx=\"{1:.1f}\" cy=\"{2:.1f}\" r=\"{5:.1f}\" fill=\"none\" stroke=\"#0b4f94\" "
       "stroke-width=\"3\"/>"
       "<rect x=\"{6:.1f}\" y=\"{7:.1f}\" width=\"{8:.1f}\" height=\"{9:.1f}\" rx=\"4\" fill=\"#fff\" "
@@ -179,10 +179,10 @@ std::string spotDrawing(const SpotPicture& drawn, const Hotspot& spot, const std
       "<rect x=\"8\" y=\"{0:.1f}\" width=\"{1:.1f}\" height=\"20\" rx=\"3\" fill=\"#fff\" "
       "fill-opacity=\"0.85\"/><line x1=\"14\" x2=\"{2:.1f}\" y1=\"{3:.1f}\" y2=\"{3:.1f}\" "
       "stroke=\"#16191d\" stroke-width=\"3\"/><text x=\"{4:.1f}\" y=\"{5:.1f}\" "
-      "font-size=\"11\">{6:g} cm</text>\n",
-      side - 28.0, px + 56.0, 14.0 + px, side - 18.0, 20.0 + px, side - 14.0, 100.0 * length);
-  content += scaleBar(drawn.picture.scale, {14.0, side + 8.0, side - 46.0, 10.0}, 11.0);
-  return svg(side, side + 36.0, label, content);
+      "font-size=\"13\">{6:g} cm</text>\n",
+      side - 28.0, px + 62.0, 14.0 + px, side - 18.0, 20.0 + px, side - 14.0, 100.0 * length);
+  content += scaleBar(drawn.picture.scale, {14.0, side + 8.0, side - 52.0, 11.0}, 14.0);
+  return svg(side, side + 42.0, label, content);
 }
 
 }  // namespace thermovox

@@ -62,9 +62,10 @@ std::string dateText(Time time) {
   const auto days_since = floor<days>(whole);
   const year_month_day date{sys_days(days_since)};
   const hh_mm_ss clock(whole - days_since);
-  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02} UTC", static_cast<int>(date.year()),
-                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                     clock.hours().count(), clock.minutes().count(), clock.seconds().count());
+  return fmt::format("<span class=\"date\">{:04}-{:02}-{:02} {:02}:{:02}:{:02} UTC</span>",
+                     static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                     static_cast<unsigned>(date.day()), clock.hours().count(), clock.minutes().count(),
+                     clock.seconds().count());
 }
 
 std::string estimateText(const Estimate& estimate) {
@@ -100,6 +101,7 @@ HtmlTable::HtmlTable(std::vector<std::string> heads, std::string alignment)
 
 void HtmlTable::row(const std::vector<std::string>& html) {
   body_ += line(html, "td");
+  ++rows_;
 }
 
 std::string HtmlTable::line(const std::vector<std::string>& html, const char* tag) const {
@@ -112,7 +114,9 @@ std::string HtmlTable::line(const std::vector<std::string>& html, const char* ta
 }
 
 std::string HtmlTable::html() const {
-  return "<div class=\"scroll\"><table>\n<thead>" + head_ + "</thead>\n<tbody>\n" + body_ +
+  constexpr std::size_t kShort = 12;  // rows: a third of a page
+  const std::string kind = rows_ > kShort ? "scroll" : "scroll whole";
+  return "<div class=\"" + kind + "\"><table>\n<thead>" + head_ + "</thead>\n<tbody>\n" + body_ +
          "</tbody>\n</table></div>\n";
 }
 

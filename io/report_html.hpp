@@ -20,7 +20,8 @@ namespace thermovox {
 /// The same for a name from outside, kept from turning the text around it (bidirectional isolation).
 [[nodiscard]] std::string named(std::string_view text);
 
-/// "2026-11-22 15:20:03 UTC"; "12.300 s" where the recorder did not know the calendar (before 1973).
+/// "2026-11-22 15:20:03 UTC" on one line; "12.300 s" where the recorder did not know the calendar (before
+/// 1973).
 [[nodiscard]] std::string dateText(Time time);
 /// "60.1 &pm; 2.2": the value and one sigma.
 [[nodiscard]] std::string estimateText(const Estimate& estimate);
@@ -33,7 +34,7 @@ namespace thermovox {
 /// "1 mission", "2 missions".
 [[nodiscard]] std::string countText(std::size_t number, const std::string& noun);
 
-/// A table with a head that is repeated on every page.
+/// A table that print does not cut when it is short; a long one has its head on every page.
 class HtmlTable {
  public:
   /// `html` of the columns' heads, and a letter for each: l for words, r for numbers.
@@ -47,6 +48,7 @@ class HtmlTable {
   std::string alignment_;
   std::string head_;
   std::string body_;
+  std::size_t rows_ = 0;
 };
 
 /// A table of what is called how: names on the left, values on the right.

@@ -10,8 +10,8 @@
 namespace thermovox {
 namespace {
 
-constexpr double kWidth = 700.0, kHeight = 210.0;
-constexpr double kLeft = 46.0, kRight = 690.0, kTop = 14.0, kBottom = 172.0;
+constexpr double kWidth = 700.0, kHeight = 150.0;
+constexpr double kLeft = 46.0, kRight = 690.0, kTop = 14.0, kBottom = 108.0;
 constexpr double k95 = 1.96;  ///< sigmas on either side that hold 95 %
 
 /// Where things lie in the plot.
@@ -62,11 +62,11 @@ std::string pointDrawing(const TrendPoint& point, double x, const Axes& axes) {
       x, low, high, x - 4.0, y, point.hot ? "#a3120a" : "#fff", x + 8.0, y - 5.0, point.delta->value);
 }
 
-std::string gapDrawing(double x, double step) {
+std::string gapDrawing(const std::string& why, double x, double step) {
   return fmt::format(
       "<rect x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#eef0f2\"/>"
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#4a5058\">not observed</text>\n",
-      x - 0.5 * step, kTop, step, kBottom - kTop, x, 0.5 * (kTop + kBottom));
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#4a5058\">{}</text>\n",
+      x - 0.5 * step, kTop, step, kBottom - kTop, x, 0.5 * (kTop + kBottom), escaped(why));
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ std::string trendPlot(std::span<const TrendPoint> points, const std::string& lab
                             kBottom + 20.0, escaped(points[i].label));
     }
     if (!points[i].delta) {
-      gaps += gapDrawing(axes.x(i), axes.step);
+      gaps += gapDrawing(points[i].gap, axes.x(i), axes.step);
       continue;
     }
     marks += pointDrawing(points[i], axes.x(i), axes);

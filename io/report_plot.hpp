@@ -13,6 +13,7 @@ struct TrendPoint {
   std::string label;              ///< below the axis
   std::optional<Estimate> delta;  ///< over the surroundings, C; none where nobody looked
   bool hot = true;                ///< found as a hot spot; false: looked at and found cool
+  std::string gap;                ///< why there is no value
 };
 
 /// SVG of the rises over the surroundings by mission: points with bars of 95 %, filled where a hot spot was

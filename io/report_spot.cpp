@@ -25,7 +25,7 @@ std::string pictureFigure(const ReportContents& contents, const HotspotRow& row)
   const std::string from = drawn.along_normal ? "along the normal of the surface"
                                               : "along +y (the normal of the surface is not known)";
   const std::string label = fmt::format("Temperatures around hot spot {}", row.id);
-  return "<figure class=\"block\">" + spotDrawing(drawn, *row.spot, label) +
+  return "<figure class=\"block spot-picture\">" + spotDrawing(drawn, *row.spot, label) +
          fmt::format(
              "<figcaption>Rendered from the temperatures of mission {} in the map, seen {}: the station "
              "keeps no images. Blue: the 95 % ellipsoid of the position. Light grey: no "
@@ -47,7 +47,7 @@ std::string positionBlock(const HotspotRow& row) {
   return "<h3>Position</h3>\n" +
          factTable({{"x, y, z (world)", vectorText(position.p_world, 3) + " m"},
                     {"one sigma, random", millimetres(position.random)},
-                    {"one sigma, shared by the mission", millimetres(position.common)}}) +
+                    {"one sigma, shared", millimetres(position.common)}}) +
          axes.html();
 }
 
@@ -67,33 +67,36 @@ const char* readsLowText(const Hotspot& spot) {
              : "no";
 }
 
-std::string valueTables(const ReportContents& contents, const HotspotRow& row) {
+std::string temperatureBlock(const ReportContents& contents, const HotspotRow& row) {
   const Hotspot& spot = *row.spot;
   std::string severity = severityChip(row, contents.report.judgement.table);
   if (!row.action.empty()) severity.append(1, ' ').append(escaped(row.action));
-  const std::string temperatures = factTable(
-      {{"severity", severity},
-       {"peak", celsius({spot.peak.value, std::hypot(spot.peak.sigma, spot.bias_sigma)})},
-       {"of that the camera's bias", fmt::format("&pm; {:.1f} &deg;C", spot.bias_sigma)},
-       {"over its surroundings", celsius(spot.delta)},
-       {"surroundings, same surface", celsius(spot.reference)},
-       {"over the air",
-        fmt::format("{:.1f} &deg;C (air: {:.1f} &deg;C)", spot.peak.value - row.ambient, row.ambient)},
-       {"hottest cell", fmt::format("{:.1f} &deg;C", spot.hottest_cell)},
-       {"95th percentile, mean of its cells", fmt::format("{:.1f}, {:.1f} &deg;C", spot.p95, spot.mean)},
-       {"reads low", readsLowText(spot)}});
-  const std::string seen = factTable(
-      {{"asset", row.asset.empty() ? "none" : named(row.asset)},
-       {"area", fmt::format("{:.0f} cm&sup2;", 1e4 * spot.area)},
-       {"extent x, y, z", vectorText(100.0 * spot.extent, 0) + " cm"},
-       {"width of the peak (one sigma)",
-        spot.width > 0.0 ? fmt::format("{:.1f} cm", 100.0 * spot.width) : "not fitted"},
-       {"cells, observations", groupedText(spot.cells.size()) + ", " + groupedText(spot.observations)},
-       {"best view", viewText(spot)},
-       {"first seen", dateText(row.first_seen)},
-       {"last seen", dateText(row.last_seen)}});
-  return "<div class=\"columns even\"><div><h3>Temperatures</h3>\n" + temperatures +
-         "</div><div><h3>Size and view</h3>\n" + seen + "</div></div>\n";
+  return "<h3>Temperatures</h3>\n" +
+         factTable({{"severity", severity},
+                    {"peak", celsius({spot.peak.value, std::hypot(spot.peak.sigma, spot.bias_sigma)})},
+                    {"the camera's bias in it", fmt::format("&pm; {:.1f} &deg;C", spot.bias_sigma)},
+                    {"over its surroundings", celsius(spot.delta)},
+                    {"surroundings", celsius(spot.reference)},
+                    {"over the air", fmt::format("{:.1f} &deg;C (air: {:.1f} &deg;C)",
+                                                 spot.peak.value - row.ambient, row.ambient)},
+                    {"hottest cell", fmt::format("{:.1f} &deg;C", spot.hottest_cell)},
+                    {"95th percentile, mean", fmt::format("{:.1f}, {:.1f} &deg;C", spot.p95, spot.mean)},
+                    {"reads low", readsLowText(spot)}});
+}
+
+std::string sizeBlock(const HotspotRow& row) {
+  const Hotspot& spot = *row.spot;
+  return "<h3>Size and view</h3>\n" +
+         factTable(
+             {{"asset", row.asset.empty() ? "none" : named(row.asset)},
+              {"area", fmt::format("{:.0f} cm&sup2;", 1e4 * spot.area)},
+              {"extent x, y, z", vectorText(100.0 * spot.extent, 0) + " cm"},
+              {"width, one sigma",
+               spot.width > 0.0 ? fmt::format("{:.1f} cm", 100.0 * spot.width) : "not fitted"},
+              {"cells, observations", groupedText(spot.cells.size()) + ", " + groupedText(spot.observations)},
+              {"best view", viewText(spot)},
+              {"first seen", dateText(row.first_seen)},
+              {"last seen", dateText(row.last_seen)}});
 }
 
 /// Delta of a mission, be it of a hot spot or of the place where one was.
@@ -106,12 +109,13 @@ std::string trendFigure(const ReportContents& contents, const HotspotRow& row) {
   const HotspotTrack& track = contents.trackOf(row);
   std::vector<TrendPoint> points;
   for (std::size_t i = 0; i < contents.missions().size(); ++i) {
-    points.push_back({missionNumber(i), deltaOf(track, i), track.seen[i].has_value()});
+    points.push_back({missionNumber(i), deltaOf(track, i), track.seen[i].has_value(),
+                      track.changes[i] ? "not observed" : "before"});
   }
   return "<figure class=\"block\">" +
          trendPlot(points, fmt::format("Rise of hot spot {} over its surroundings, by mission", row.id)) +
          "<figcaption>Rise over the surroundings by mission, with bars of 95 %. Filled: found as a hot spot; "
-         "hollow: looked at, but no hot spot.</figcaption></figure>\n";
+         "hollow: looked at, but no hot spot; before: not yet known.</figcaption></figure>\n";
 }
 
 std::string historyTable(const ReportContents& contents, const HotspotRow& row) {
@@ -158,9 +162,8 @@ std::string spotSection(const ReportContents& contents, const HotspotRow& row) {
   std::string text = fmt::format("<section class=\"spot\" id=\"spot-{0}\">\n<h2>Hot spot {0} {1} {2}", row.id,
                                  severityChip(row, contents.report.judgement.table), stateText(row.change));
   text += fmt::format(" <a class=\"back\" href=\"#row-{}\">back to the list</a></h2>\n", row.id);
-  text += "<div class=\"columns\"><div>" + pictureFigure(contents, row) + "</div><div>" + positionBlock(row) +
-          "</div></div>\n";
-  text += valueTables(contents, row);
+  text += "<div class=\"columns\"><div>" + pictureFigure(contents, row) + sizeBlock(row) + "</div><div>" +
+          positionBlock(row) + temperatureBlock(contents, row) + "</div></div>\n";
   text += "<h3>History</h3>\n";
   if (contents.missions().size() > 1) text += trendFigure(contents, row);
   return text + historyTable(contents, row) + "</section>\n";

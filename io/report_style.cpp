@@ -27,22 +27,25 @@ nav a { margin-right: 4mm; white-space: nowrap; }
 .scroll { overflow-x: auto; margin: 0 0 3mm; }
 table { border-collapse: collapse; width: 100%; font-size: 8.6pt; line-height: 1.3; }
 thead { display: table-header-group; }
-tr, figure, svg, .block { break-inside: avoid; }
+tr, figure, svg, .block, .whole { break-inside: avoid; }
 th, td { text-align: left; vertical-align: top; padding: 1mm 1.6mm; border-bottom: 0.2mm solid #cdd2d8; }
 th { font-weight: bold; border-bottom: 0.4mm solid #16191d; vertical-align: bottom; }
 td.r, th.r { text-align: right; font-variant-numeric: tabular-nums; }
 td.r { white-space: nowrap; }
+.date { white-space: nowrap; }
 td.l { overflow-wrap: break-word; }
 table.facts { width: 100%; }
-table.facts th { width: 38%; font-weight: normal; color: #4a5058; border-bottom: 0.2mm solid #cdd2d8;
+table.facts th { width: 44%; font-weight: normal; color: #4a5058; border-bottom: 0.2mm solid #cdd2d8;
   vertical-align: top; }
 figure { margin: 0 0 4mm; }
 figure svg, figure img { display: block; width: 100%; height: auto; }
 figcaption { font-size: 8.5pt; color: #4a5058; margin-top: 1mm; }
-.spot { break-before: page; }
+.spot, .sheet { break-before: page; }
 .spot h2 { margin-top: 0; display: flex; flex-wrap: wrap; gap: 1mm 3mm; align-items: baseline; }
 @media screen { .spot { border-top: 0.2mm solid #cdd2d8; margin-top: 12mm; padding-top: 8mm; } }
-.columns { display: grid; grid-template-columns: 82mm 1fr; gap: 0 6mm; align-items: start; }
+.columns { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm; align-items: start; }
+@media print { .spot-picture svg { width: 52mm; } .spot h3 { margin-top: 2.5mm; } }
+.spot h3 { margin-top: 3mm; }
 .columns > * { min-width: 0; }
 .columns h3:first-child { margin-top: 0; }
 .chip { display: inline-block; border-radius: 1mm; padding: 0.2mm 1.6mm; font-size: 8.4pt; font-weight: bold;

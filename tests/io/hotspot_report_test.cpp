@@ -58,7 +58,8 @@ void expectSound(const std::string& html) {
   for (std::sregex_iterator i(html.begin(), html.end(), link_text), end; i != end; ++i) {
     EXPECT_TRUE(ids.contains((*i)[1])) << "leads nowhere: #" << (*i)[1];
   }
-  for (const char* fetched : {"src=\"http", "href=\"http", "url(", "@import", "<script", "<iframe", "<object"}) {
+  for (const char* fetched :
+       {"src=\"http", "href=\"http", "url(", "@import", "<script", "<iframe", "<object"}) {
     EXPECT_THAT(html, Not(HasSubstr(fetched)));
   }
 }
@@ -121,7 +122,8 @@ TEST(HotspotReport, NoTextFromOutsideBecomesMarkup) {
   report.station = "<i>.tvx";
   const std::string html = hotspotReportHtml(report);
   expectSound(html);
-  for (const char* tag : {"<script", "<img", "<b onclick", "<i>"}) EXPECT_THAT(html, Not(HasSubstr(tag))) << tag;
+  for (const char* tag : {"<script", "<img", "<b onclick", "<i>"})
+    EXPECT_THAT(html, Not(HasSubstr(tag))) << tag;
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(1)&lt;/script&gt;&quot;&#39;&amp;"));
   EXPECT_THAT(html, HasSubstr("?? bytes"));
 }
@@ -154,8 +156,13 @@ TEST(HotspotReport, NothingFoundAndNotSeenAreDifferentAnswersAboutAnAsset) {
 TEST(HotspotReport, RefusesAMapWithoutSurface) {
   const StationHotspots found;
   const ThermalMap map({.resolution = 0.1});
-  const HotspotReport report{
-      .title = "", .station = "empty.tvx", .version = "", .criteria = {}, .judgement = {}, .found = found, .map = map};
+  const HotspotReport report{.title = "",
+                             .station = "empty.tvx",
+                             .version = "",
+                             .criteria = {},
+                             .judgement = {},
+                             .found = found,
+                             .map = map};
   EXPECT_THROW((void)hotspotReportHtml(report), DataError);
 }
 

@@ -23,8 +23,10 @@ class ReportedPlant {
     map_.merge(own);
     StationHotspots& found = found_;
     found.layers.push_back(std::make_unique<SurfaceLayer>(own));
-    found.history.add({name, found.layers.back().get(), findHotspots(*found.layers.back(), {}, {})});
-    const auto flown = Time(std::chrono::seconds(1700000000 + 86400 * static_cast<int>(found.missions.size())));
+    found.history.add({name, found.layers.back().get(),
+                       findHotspots(*found.layers.back(), HotspotCriteria{}, CameraSharpness{})});
+    const auto flown =
+        Time(std::chrono::seconds(1700000000 + 86400 * static_cast<int>(found.missions.size())));
     found.missions.push_back({.name = name,
                               .readings = 10,
                               .points = 19200,
@@ -48,7 +50,8 @@ class ReportedPlant {
 
   /// Where spot i is, metres.
   [[nodiscard]] static Eigen::Vector3d placeOf(std::size_t i) {
-    return {0.4 + 0.8 * static_cast<double>(i % 10), 0.6 + 1.2 * static_cast<double>(i / 10), 0.025};
+    return Eigen::Vector3d(0.4 + 0.8 * static_cast<double>(i % 10), 0.6 + 1.2 * static_cast<double>(i / 10),
+                           0.025);
   }
 
  private:
@@ -60,7 +63,8 @@ class ReportedPlant {
     for (int x = 0; x < 160; ++x) {
       for (int y = 0; y < 120; ++y) {
         const Eigen::Vector3d p((x + 0.5) * kEdge, (y + 0.5) * kEdge, 0.025);
-        MappedReturn point{p, {4.0, 3.0, 3.0}, Time(std::chrono::seconds(1700000000)), std::nullopt};
+        MappedReturn point{p, Eigen::Vector3d(4.0, 3.0, 3.0), Time(std::chrono::seconds(1700000000)),
+                           std::nullopt};
         if (const Rise celsius = celsiusAt(p, rises)) {
           point.temperature = TemperatureObservation{static_cast<float>(*celsius), 0.1F, 3.0F, 0.1F};
         }
@@ -81,7 +85,7 @@ class ReportedPlant {
     return celsius;
   }
 
-  ThermalMap map_{{.resolution = kEdge}};
+  ThermalMap map_{ThermalMap::Options{.resolution = kEdge}};
   StationHotspots found_;
 };
 
