@@ -5,6 +5,7 @@
 
 #include "apps/usable_memory.hpp"
 #include "io/atomic_file.hpp"
+#include "io/number_text.hpp"
 
 namespace thermovox {
 namespace {
@@ -14,6 +15,14 @@ constexpr std::uint64_t kMostMegabytes = 1'000'000'000;
 constexpr int kMostThreads = 1024;
 
 }  // namespace
+
+CLI::Validator isFinite() {
+  const auto check = [](const std::string& text) -> std::string {
+    const std::optional<double> number = parseNumber(text);
+    return number && std::isfinite(*number) ? "" : "found " + text + ", expected a finite number";
+  };
+  return CLI::Validator(check, "");
+}
 
 CLI::Option* addPalette(CLI::App& verb, Palette& palette) {
   std::map<std::string, Palette> choices;

@@ -32,6 +32,9 @@ CLI::Option* addChoice(CLI::App& verb, const std::string& name, Target& value,
   return verb.add_option_function<std::string>(name, choose, help)->type_name(words);
 }
 
+/// A check of options: CLI11's own of ranges lets nan pass.
+[[nodiscard]] CLI::Validator isFinite();
+
 /// `--palette NAME`.
 CLI::Option* addPalette(CLI::App& verb, Palette& palette);
 

@@ -44,6 +44,11 @@ bool isWithin(const fs::path& path, const fs::path& folder) {
   return !to.empty() && *to.begin() != "..";
 }
 
+bool isNoFolder(const fs::path& path) {
+  std::error_code unknown;
+  return fs::exists(path, unknown) && !fs::is_directory(path, unknown);
+}
+
 void checkUsage(ImageArgs& args) {
   ImageJob& job = args.job;
   const bool writes_tiff = args.watched ? args.watch.ending == ".tiff" : isTiff(args.out);
@@ -57,6 +62,8 @@ void checkUsage(ImageArgs& args) {
                   args.watched ? "--watch writes TIFFs without colours, expected --as png or --as jpg"
                                : "OUT is a TIFF, which has no colours, expected a .png or .jpg");
   }
+  if (args.watched && isNoFolder(args.in))
+    throw UsageError("--watch: IN is the file " + args.in.string() + ", expected the camera's folder");
   checkRadiometry(job.overrides);
   if (job.counts && (job.overrides.any() || args.scale.celsius_per_count || !job.edges.by_rig.rig.empty()))
     throw UsageError("--counts: the counts are written as they are, whatever they mean; leave the rest out");

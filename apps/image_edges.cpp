@@ -1,5 +1,7 @@
 #include "apps/image_edges.hpp"
 
+#include "apps/arguments.hpp"
+
 namespace thermovox {
 
 std::vector<CLI::Option*> addEdges(CLI::App& verb, EdgeArgs& args) {
@@ -22,6 +24,7 @@ std::vector<CLI::Option*> addEdges(CLI::App& verb, EdgeArgs& args) {
               "How far the surface is from the thermal camera along its optical axis [m], not along "
               "the ray to each pixel: what a laser beside the camera measures on a wall that faces it")
           ->check(CLI::PositiveNumber)
+          ->check(isFinite())
           ->needs(visible);
   visible->needs(rig)->needs(range);
   return {edges, visible};

@@ -2,8 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <fstream>
 #include <iostream>
 #include <string_view>
+#include <vector>
 
 #include "projection/error.hpp"
 
@@ -27,9 +29,28 @@ void makeFolderOf(const fs::path& file) {
   if (error) throw DataError(file.parent_path().string() + ": cannot be made (" + error.message() + ")");
 }
 
+bool isThere(const fs::path& file) {
+  std::error_code unknown;
+  return fs::exists(file, unknown);
+}
+
+/// Whether every byte of a file can be read; the kernel may know the name of one whose card has gone.
+bool isWhole(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) return false;
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<char> piece(1 << 16);
+  std::uintmax_t read = 0;
+  while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) || stream.gcount() > 0) {
+    read += static_cast<std::uintmax_t>(stream.gcount());
+  }
+  return !stream.bad() && read >= size;
+}
+
 /// Writes the file of an image that has just appeared; false when there is none to write.
 bool take(const ImageJob& job, const fs::path& image, const fs::path& out, CameraFolder& images) {
-  if (job.existing == Existing::refuse && fs::exists(out)) {
+  if (job.existing == Existing::refuse && isThere(out)) {
     spdlog::info("{}: was there before, {} is passed over (--force replaces it)", out.string(),
                  image.string());
     return false;
@@ -41,7 +62,7 @@ bool take(const ImageJob& job, const fs::path& image, const fs::path& out, Camer
     return true;
   } catch (const DataError& error) {
     if (!std::string_view(error.what()).starts_with(image.string())) throw;  // it is the output's
-    if (fs::exists(image)) {
+    if (isWhole(image)) {
       spdlog::warn("{}", error.what());
     } else {
       images.putBack(image);  // the card was taken out

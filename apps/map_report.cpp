@@ -11,10 +11,15 @@ namespace thermovox {
 namespace {
 
 nlohmann::ordered_json missionJson(const MissionReport& report) {
-  return {{"mission", report.mission}, {"readings", report.readings},
-          {"points", report.points},   {"coloured", report.coloured},
-          {"painted", report.painted}, {"uncoloured", report.uncoloured},
-          {"dropped", report.dropped}, {"outside_calibration", report.outside_calibration}};
+  return {{"mission", report.mission},
+          {"readings", report.readings},
+          {"points", report.points},
+          {"coloured", report.coloured},
+          {"painted", report.painted},
+          {"uncoloured", report.uncoloured},
+          {"dropped", report.dropped},
+          {"outside_calibration", report.outside_calibration},
+          {"painted_outside_calibration", report.painted_outside_calibration}};
 }
 
 void printCounts(const char* title, const std::map<std::string, std::size_t>& counts) {
@@ -31,6 +36,12 @@ void printCounts(const char* title, const std::map<std::string, std::size_t>& co
 }  // namespace
 
 void warnOfCalibration(const MissionReport& report) {
+  if (report.painted_outside_calibration > 0) {
+    spdlog::warn(
+        "mission {}: {} of the temperatures that its frames painted lie outside those that the camera is "
+        "calibrated for; they are taken as they are",
+        report.mission, report.painted_outside_calibration);
+  }
   if (report.outside_calibration == 0) return;
   spdlog::warn(
       "mission {}: {} of its {} coloured points have temperatures outside those that the camera is "

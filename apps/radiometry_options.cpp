@@ -40,8 +40,10 @@ void addScaleOptions(CLI::App& verb, ScaleArgs& args, const std::string& otherwi
   CLI::Option* per_count =
       verb.add_option("--celsius-per-count", args.celsius_per_count,
                       "Of a TIFF of counts: degrees a count [C] (default: " + otherwise + ")")
-          ->check(CLI::PositiveNumber);
+          ->check(CLI::PositiveNumber)
+          ->check(isFinite());
   verb.add_option("--celsius-offset", args.celsius_offset, "Temperature of count 0 [C]")
+      ->check(isFinite())
       ->capture_default_str()
       ->needs(per_count);
 }

@@ -12,6 +12,7 @@ void addMap(CLI::App& app);
 void addMerge(CLI::App& app);
 void addHotspots(CLI::App& app);
 void addDiff(CLI::App& app);
+void addReport(CLI::App& app);
 void addExport(CLI::App& app);
 void addImage(CLI::App& app);
 void addInfo(CLI::App& app);

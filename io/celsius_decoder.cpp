@@ -32,6 +32,7 @@ ThermalImage CelsiusDecoder::decode(const RawThermalImage& image, const std::str
     overrides.validate();
     const RadiometricParameters wanted = overrides.applyTo(*parameters);
     if (!table_ || !(table_->parameters() == wanted)) table_.emplace(tableFor(wanted, name));
+    result.noise_gain = static_cast<float>(1.0 / (wanted.emissivity * wanted.window_transmission));
     result.celsius.resize(image.counts.size());
     table_->convert(image.counts, result.celsius);
     return result;

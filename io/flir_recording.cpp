@@ -17,6 +17,7 @@ constexpr std::uint64_t kMostFrameBytes = std::uint64_t{1} << 28;
 struct FramePlace {
   std::uint64_t begin = 0;
   std::uint64_t size = 0;
+  bool damaged = false;  ///< its directory is, and its counts cannot be found
 };
 
 /// The next place where a header begins; nullopt where there is none up to the end.
@@ -51,15 +52,15 @@ class FlirRecording final : public ThermalRecording {
       if (place.size > left) {  // it is cut off, or its directory is damaged: then the next one is not
         const auto next = nextHeader(source_, *begin + kFlirHeaderSize);
         place.size = (next ? *next : source_.size()) - *begin;
-        if (place.size > kMostFrameBytes || !isDecodable(place)) {
-          ++damaged_;
-          begin = next;
-          continue;
-        }
+        place.damaged = place.size > kMostFrameBytes || !isDecodable(place);
+        places_.push_back(place);
+        begin = next;
+        continue;
       }
       places_.push_back(place);
       begin = nextHeader(source_, *begin + place.size);
     }
+    for (; !places_.empty() && places_.back().damaged; places_.pop_back()) ++damaged_;
     if (places_.empty()) {
       throw DataError(source_.name() + ": is a FLIR recording whose first frame is cut off after " +
                       std::to_string(source_.size()) + " bytes or damaged, expected a whole frame");
@@ -75,9 +76,10 @@ class FlirRecording final : public ThermalRecording {
                       (damaged_ > 0 ? " (" + std::to_string(damaged_) + " more cut off or damaged)" : ""));
     }
     const FramePlace& place = places_[static_cast<std::size_t>(frame)];
-    const std::vector<std::byte> bytes = source_.read(place.begin, place.size);
     const std::string name =
         frames() == 1 ? source_.name() : source_.name() + ", frame " + std::to_string(frame);
+    if (place.damaged) throw DataError(name + ": is damaged, its counts do not lie where it says");
+    const std::vector<std::byte> bytes = source_.read(place.begin, place.size);
     RawThermalImage image = readFlirFrame(FlirFrame(bytes, name), visible_);
     image.metadata.format = frames() == 1 ? "FLIR frame" : "FLIR recording";
     return image;

@@ -114,7 +114,9 @@ std::string csvLine(const std::vector<std::pair<std::string, std::string>>& colu
 
 std::vector<std::pair<std::string, std::string>> columnsOf(const HotspotRow& row) {
   std::vector<std::pair<std::string, std::string>> columns;
-  const Json json = rowJson(row);
+  Json json = rowJson(row);
+  Json& pixel = json["best_view"]["pixel"];
+  if (pixel.is_null()) pixel = {nullptr, nullptr};  // every row has the same columns
   for (const auto& [key, value] : json.items()) appendColumns(value, key, columns);
   return columns;
 }

@@ -235,6 +235,14 @@ void drawLegend(cv::Mat& picture, cv::Point corner, std::span<const LegendEntry>
   }
 }
 
+std::string pngOf(const cv::Mat& picture) {
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) {
+    throw DataError("a picture could not be encoded, expected 8 bits a channel");
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
 void writePicture(const std::filesystem::path& path, const cv::Mat& picture, Existing existing) {
   const std::string ending = endingOf(path);
   const bool jpeg = ending == ".jpg" || ending == ".jpeg";

@@ -53,6 +53,9 @@ inline constexpr int kLegendRowPx = 24;
 /// Draws the entries below one another, a row each, the first one's upper left corner at `corner`.
 void drawLegend(cv::Mat& picture, cv::Point corner, std::span<const LegendEntry> entries);
 
+/// The bytes of a PNG of the picture (8-bit BGR or grey).
+[[nodiscard]] std::string pngOf(const cv::Mat& picture);
+
 /// Writes a picture (8-bit BGR or grey) as PNG, or as JPEG where the path ends on .jpg or .jpeg; whole or not
 /// at all. Throws DataError naming the file.
 void writePicture(const std::filesystem::path& path, const cv::Mat& picture, Existing existing);

@@ -44,7 +44,8 @@ struct XmpFacts {
 struct ThermalMetadata {
   std::string format;  ///< "FLIR radiometric JPEG"
   std::string make, model, serial, lens, software;
-  std::string time;  ///< as the camera wrote it: ISO 8601, with the zone where it is known
+  std::string time;  ///< as the camera wrote it: ISO 8601 with its zone in FLIR frames, "YYYY:MM:DD hh:mm:ss"
+                     ///< in EXIF and TIFF
   std::optional<double> field_of_view_deg;
   std::optional<CalibratedRange> calibrated_range;
   std::optional<PictureInPicture> picture_in_picture;

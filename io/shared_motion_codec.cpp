@@ -52,6 +52,7 @@ std::vector<SharedMotion> decodeSharedMotions(std::string_view bytes) {
       *place = *reader.next<std::int32_t>();
     motion.laser = *reader.next<std::uint32_t>();
     motion.count = *reader.next<std::uint32_t>();
+    if (motion.count == 0) throw DataError("the shared errors of a mission hold means of no returns");
     for (float* number : floatsOf(motion)) {
       *number = *reader.next<float>();
       if (!std::isfinite(*number))

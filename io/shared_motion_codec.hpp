@@ -12,7 +12,7 @@ namespace thermovox {
 /// integers), then by_rotation and by_translation row by row, by_range, lever and view (32-bit floats).
 [[nodiscard]] std::string encodeSharedMotions(const std::vector<SharedMotion>& motions);
 
-/// Throws DataError when the bytes are no whole rows, or a number is not finite.
+/// Throws DataError when the bytes are no whole rows, a count is 0, or a number is not finite.
 [[nodiscard]] std::vector<SharedMotion> decodeSharedMotions(std::string_view bytes);
 
 }  // namespace thermovox

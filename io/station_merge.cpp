@@ -70,7 +70,11 @@ void move(Merge& merge, const SqlDatabase& database, const MergeInput& input,
   MissionRecord& record = mission.record;
   record.T_world_mission =
       record.T_world_mission ? *input.T_world_station * *record.T_world_mission : *input.T_world_station;
-  record.shared_motions = moved(record.shared_motions, *input.T_world_station);
+  try {
+    record.shared_motions = moved(record.shared_motions, *input.T_world_station);
+  } catch (const DataError& error) {
+    throw DataError(input.station.string() + ": " + error.what());
+  }
   for (FramePose& frame : record.frame_poses) {
     frame.T_world_camera = *input.T_world_station * frame.T_world_camera;
   }

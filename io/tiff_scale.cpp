@@ -86,7 +86,7 @@ std::optional<ScaleDecision> byXmp(const TiffEvidence& evidence) {
 }
 
 std::optional<ScaleDecision> byModel(const TiffEvidence& evidence, const std::optional<Band>& band) {
-  if (evidence.make == "FLIR" && measuresNoTemperatures(evidence.model)) {
+  if (evidence.make.starts_with("FLIR") && measuresNoTemperatures(evidence.model)) {
     return ScaleDecision{NotTemperature{"is of a " + evidence.model +
                                         ", which measures no temperatures (only the models with an R do)"},
                          RuleSource::model};

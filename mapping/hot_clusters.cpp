@@ -79,7 +79,8 @@ std::vector<std::uint32_t> hotSamples(const SurfaceLayer& layer, const HotspotCr
 }
 
 /// Samples taken from the hottest on; one joins the basin of a hotter neighbour, and joins basins where their
-/// peaks do not stand out of it (persistence, as in Edelsbrunner, Letscher and Zomorodian 2002).
+/// peaks do not stand out of it (persistence, as in Edelsbrunner, Letscher and Zomorodian 2002), or only as
+/// much as noise does.
 class Basins {
  public:
   Basins(const SurfaceLayer& layer, const std::vector<std::uint32_t>& hot, double floor)
@@ -123,8 +124,10 @@ class Basins {
     near.erase(std::unique(near.begin(), near.end()), near.end());
     basin_[i] = near.empty() ? i : near.front();
     for (std::size_t n = 1; n < near.size(); ++n) {  // the lower peak of the two decides
-      const double peak = layer_[hot_[near[n]]].celsius;
-      if (peak - celsius < kParting * (peak - floor_)) basin_[near[n]] = near.front();
+      const SurfaceSample& peak = layer_[hot_[near[n]]];
+      const double noise = std::hypot(peak.sigma, layer_[hot_[i]].sigma);
+      const double least = std::max(kParting * (peak.celsius - floor_), kSure * noise);
+      if (peak.celsius - celsius < least) basin_[near[n]] = near.front();
     }
   }
 
@@ -133,6 +136,17 @@ class Basins {
   double floor_;
   std::vector<std::size_t> basin_;
 };
+
+/// What peaks are parted over, C: the median of what is not hot, or the lowest where all is.
+double floorOf(const SurfaceLayer& layer, const std::vector<std::uint32_t>& hot) {
+  std::vector<double> cool;
+  double lowest = layer[0].celsius;
+  for (std::uint32_t i = 0; i < layer.samples().size(); ++i) {
+    lowest = std::min<double>(lowest, layer[i].celsius);
+    if (!std::binary_search(hot.begin(), hot.end(), i)) cool.push_back(layer[i].celsius);
+  }
+  return cool.empty() ? lowest : quantile(cool, 0.5);
+}
 
 }  // namespace
 
@@ -166,9 +180,7 @@ std::optional<LocalReference> localReference(const SurfaceLayer& layer,
 std::vector<HotCluster> hotClusters(const SurfaceLayer& layer, const HotspotCriteria& criteria) {
   const std::vector<std::uint32_t> hot = hotSamples(layer, criteria);
   if (hot.empty()) return {};
-  std::vector<double> temperatures;
-  for (const SurfaceSample& sample : layer.samples()) temperatures.push_back(sample.celsius);
-  return Basins(layer, hot, quantile(temperatures, 0.5)).fill();
+  return Basins(layer, hot, floorOf(layer, hot)).fill();
 }
 
 }  // namespace thermovox

@@ -28,7 +28,7 @@ using HotCluster = std::vector<std::uint32_t>;
 
 /// Samples that meet a criterion, joined where they lie within two and a half cells of each other, and parted
 /// again where two peaks stand out of the saddle between them: each by more than 35 % of the excess of the
-/// lower one over the surroundings. In the order of their first samples.
+/// lower one over what is not hot, and by three sigmas. In the order of their first samples.
 [[nodiscard]] std::vector<HotCluster> hotClusters(const SurfaceLayer& layer, const HotspotCriteria& criteria);
 
 }  // namespace thermovox

@@ -52,7 +52,7 @@ struct Hotspot {
   double width = 0.0;         ///< one sigma of the peak's shape, metres; 0 where it could not be fitted
   double area = 0.0;          ///< m^2, of the surface that its cells cover
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< of the cells, along the axes, metres
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the surface, towards the camera; zero: unknown
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the surface, sign arbitrary; zero: unknown
   std::vector<CellKey> cells;
   std::uint64_t observations = 0;
   SurfaceCell::View best_view{};  ///< of its cells: the one with the most pixels

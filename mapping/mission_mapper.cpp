@@ -194,7 +194,8 @@ std::unique_ptr<Occluder> MissionMapper::secondLook(const ThermalView& view) {
   auto scene_view = std::make_unique<SceneView>(camera.camera, view.T_camera_world, *options_.scene,
                                                 viewRange(view), options_.scene_visibility);
   if (options_.pass == Pass::paint) {
-    paint(view, camera, *scene_view, {widestRangeSigma(mission_.rig), mission_.ambient}, map_);
+    report_.painted_outside_calibration +=
+        paint(view, camera, *scene_view, {widestRangeSigma(mission_.rig), mission_.ambient}, map_);
   }
   return scene_view;
 }

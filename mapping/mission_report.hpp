@@ -57,6 +57,7 @@ struct MissionReport {
   /// Of the coloured: with a temperature that their camera is not calibrated for. It is taken as it is, for
   /// nothing says by how much it errs.
   std::size_t outside_calibration = 0;
+  std::size_t painted_outside_calibration = 0;  ///< the same of the temperatures that frames painted
   std::map<std::string, std::size_t>
       uncoloured;  ///< by the reason's name; reasons without a return are left out
   std::map<std::string, std::size_t> dropped;  ///< likewise

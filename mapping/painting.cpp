@@ -18,8 +18,8 @@ double paintRange(const ThermalCamera& camera, double resolution) {
   return kWidestPixel * resolution * std::min(camera.camera.fx(), camera.camera.fy());
 }
 
-void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView& scene_view,
-           const PaintOptions& options, ThermalMap& map) {
+std::size_t paint(const ThermalView& view, const ThermalCamera& camera, const SceneView& scene_view,
+                  const PaintOptions& options, ThermalMap& map) {
   const double range = paintRange(camera, map.resolution());
   const double variance =
       options.range_sigma * options.range_sigma + map.resolution() * map.resolution() / 12.0;
@@ -38,6 +38,7 @@ void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView
                       .rig_covariance = covariance});
   }
   const double reflected = reflectedTemperature(*view.frame.image, options.ambient);
+  std::size_t uncalibrated = 0;
   ColouringBatch batch;
   const std::span<const PointColour> colours = batch.colour(points, {view, camera, scene_view});
   for (std::size_t i = 0; i < colours.size(); ++i) {
@@ -51,7 +52,11 @@ void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView
                                              .incidence = grazing.incidence,
                                              .common_sigma = grazing.sigma};
     map.observe(surfaces[i]->key, observation, view.frame.stamp);
+    const auto& calibrated = view.frame.image->calibrated_range;
+    if (calibrated && (calibrated->isBelow(observation.celsius) || calibrated->isAbove(observation.celsius)))
+      ++uncalibrated;
   }
+  return uncalibrated;
 }
 
 }  // namespace thermovox

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "mapping/scene_view.hpp"
@@ -26,7 +27,7 @@ struct PaintOptions {
 /// itself. The incidence is that on the plane of the neighbouring cells, and what a grazing one is worth is
 /// the observation's common sigma (GrazingView). Cells that one pixel paints share its noise; a cell gets at
 /// most one observation from a frame.
-void paint(const ThermalView& view, const ThermalCamera& camera, const SceneView& scene_view,
-           const PaintOptions& options, ThermalMap& map);
+std::size_t paint(const ThermalView& view, const ThermalCamera& camera, const SceneView& scene_view,
+                  const PaintOptions& options, ThermalMap& map);
 
 }  // namespace thermovox

@@ -17,14 +17,14 @@ PeakModel modelOf(const Eigen::VectorXd& x) {
   return {x.head<3>(), std::exp(x[3]), std::exp(x[4]), x[5]};
 }
 
-/// A residual whose square is the soft L1 loss 2 (sqrt(1 + r^2) - 1), with its derivative.
+/// A residual whose square is the soft L1 loss 2 (sqrt(1 + r^2) - 1), with its derivative. Written without
+/// that difference, in which a small r would be lost.
 struct SoftResidual {
   double value, slope;
 };
 SoftResidual soft(double r) {
   const double root = std::sqrt(1.0 + r * r);
-  const double value = std::copysign(std::sqrt(2.0 * (root - 1.0)), r);
-  return {value, std::abs(r) < 1e-9 ? 1.0 : r / (root * value)};
+  return {r * std::sqrt(2.0 / (root + 1.0)), std::sqrt((root + 1.0) / 2.0) / root};
 }
 
 /// For Eigen's solver: residuals in sigmas, and their derivatives by centre, ln rise, ln width, reference.

@@ -5,14 +5,16 @@
 #include <limits>
 #include <variant>
 
+#include "projection/error.hpp"
+
 namespace thermovox {
 namespace {
 
-constexpr std::size_t kEach = 64;  // readings of no more returns are taken wholly
-constexpr std::size_t kStep = 32;  // of longer ones every so many-th
-constexpr double kLeastCosine =
-    0.3;  // of the angle between ray and normal: beyond 73 degrees nothing is located
-constexpr std::int32_t kReach = 2;   // cubes
+constexpr std::size_t kEach = 64;     // readings of no more returns are taken wholly
+constexpr std::size_t kStep = 32;     // of longer ones every so many-th
+constexpr double kLeastCosine = 0.3;  // of ray and normal: beyond 73 degrees nothing is located
+constexpr std::int32_t kReach = 2;    // cubes
+constexpr double kWorld = 1 << 30;    // cubes from the origin, further than any map reaches
 constexpr double kViewSigma = 0.05;  // radians: what a body moves while it passes, a fifth of a metre at four
 
 BlockKey cubeOf(const Eigen::Vector3d& p_world) {
@@ -22,8 +24,8 @@ BlockKey cubeOf(const Eigen::Vector3d& p_world) {
 }
 
 double squaredDistance(const BlockKey& a, const BlockKey& b) {
-  const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-  return x * x + y * y + z * z;
+  const Eigen::Vector3d apart = Eigen::Vector3d(a.x, a.y, a.z) - Eigen::Vector3d(b.x, b.y, b.z);
+  return apart.squaredNorm();
 }
 
 /// The lasers' motions in the cube that holds the point, or in the nearest one (the first of equals).
@@ -138,6 +140,8 @@ std::vector<SharedMotion> moved(std::span<const SharedMotion> motions, const Pos
   std::map<std::tuple<BlockKey, std::uint32_t>, SharedMotion> by_cube;
   for (const SharedMotion& motion : motions) {
     const Eigen::Vector3d centre = T_world_map * motion.centre();
+    if (!((centre / SharedMotion::kEdge).cwiseAbs().maxCoeff() < kWorld))
+      throw DataError("is moved out of the world, expected it nearer to the origin");
     SharedMotion turned{cubeOf(centre),
                         motion.laser,
                         motion.count,

@@ -63,7 +63,7 @@ class SharedMotions {
 };
 
 /// The same after a rigid motion of the world: T_world_map takes the old coordinates to the new ones. A cube
-/// goes where its centre goes; those that meet are averaged.
+/// goes where its centre goes; those that meet are averaged. Throws DataError where one leaves the world.
 [[nodiscard]] std::vector<SharedMotion> moved(std::span<const SharedMotion> motions, const Pose& T_world_map);
 
 /// What a mission declares of its errors besides its rig's.

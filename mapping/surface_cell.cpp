@@ -26,7 +26,7 @@ constexpr std::uint64_t kMostIncidence = 157;  // a right angle
 constexpr double kUnknownCosine = 0.5;         // an unknown incidence counts as 60 degrees
 constexpr std::int64_t kFirstStamp = -(std::int64_t{1} << 62);  // stamps lie within +-2^62 ns of 1970
 constexpr double kCommonSteps = 2048.0;                         // a degree, under the root
-constexpr double kMostCommon = 255.0;
+constexpr double kMostCommon = 254.0;
 constexpr int kLastShift = 15, kFirstShift = 31;
 
 /// Nanoseconds from kFirstStamp, at most 2^63 - 1.
@@ -57,10 +57,11 @@ std::uint8_t incidenceCode(float incidence) {
 
 /// A common sigma, C, by its code: squares, so that it is exact and fine where it is small.
 double commonOf(std::uint64_t code) {
-  return static_cast<double>(code * code) / kCommonSteps;
+  return code == 0 ? 0.0 : static_cast<double>((code - 1) * (code - 1)) / kCommonSteps;
 }
 std::uint64_t commonCode(double sigma) {
-  return static_cast<std::uint64_t>(std::min(std::sqrt(std::abs(sigma) * kCommonSteps) + 0.5, kMostCommon));
+  return 1 +
+         static_cast<std::uint64_t>(std::min(std::sqrt(std::abs(sigma) * kCommonSteps) + 0.5, kMostCommon));
 }
 
 /// What an observation of these sigmas weighs, before it is guarded.
@@ -99,8 +100,9 @@ bool isBetterView(std::uint64_t range_a, std::uint64_t incidence_a, std::uint64_
 /// Adds observations; of two too many for one cell the busier one's stand, ties by the sums.
 inline void SurfaceCell::takeSums(const Sums& other) {
   const Sums own{observations, weight_sum, weighted_sum, weighted_square_sum, common_code};
-  const std::uint64_t least =
-      own.observations == 0 ? other.common_code : std::min(own.common_code, other.common_code);
+  const bool both_known = own.common_code > 0 && other.common_code > 0;
+  const std::uint64_t least = both_known ? std::min(own.common_code, other.common_code)
+                                         : std::max(own.common_code, other.common_code);
   const bool fits = own.observations + other.observations <= kMaxObservations;
   const Sums sums = fits ? Sums{own.observations + other.observations, own.weight + other.weight,
                                 own.weighted + other.weighted, own.square + other.square, least}
@@ -150,7 +152,8 @@ void SurfaceCell::addTemperature(const TemperatureObservation& observation, Time
   checkFinite(observation);
   const double celsius = std::clamp<double>(observation.celsius, kMinCelsius, kMaxCelsius);
   const double sigma = std::clamp<double>(observation.sigma, kMinSigma, kMaxSigma);
-  const std::uint64_t common_steps = commonCode(observation.common_sigma);
+  const std::uint64_t common_steps =
+      std::isnan(observation.incidence) ? 0 : commonCode(observation.common_sigma);
   const double common = commonOf(common_steps);
   const double weight = weightOf(sigma, common) * guardedShare(celsius, sigma * sigma + common * common);
   const auto w = static_cast<std::uint64_t>(std::max(weight + 0.5, 1.0));
@@ -198,7 +201,7 @@ bool SurfaceCell::isPlausible() const {
 }
 
 bool SurfaceCell::hasPlausibleTemperature() const {
-  const auto most_weight = static_cast<std::uint64_t>(weightOf(kMinSigma, commonSigma()) + 0.5);
+  const auto most_weight = static_cast<std::uint64_t>(weightOf(kMinSigma, 0.0) + 0.5);
   constexpr auto most_first = (std::uint64_t{1} << 32) - 1;
   if (observations > kMaxObservations) return false;
   if (weight_sum < observations || weight_sum > observations * most_weight) return false;

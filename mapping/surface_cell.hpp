@@ -70,7 +70,7 @@ struct SurfaceCell {
   PackedInteger<2> max_code;      ///< highest
   PackedInteger<2> best_range_cm;
   PackedInteger<1> best_incidence;  ///< 1/100 radians; kUnknownIncidence
-  PackedInteger<1> common_code;     ///< least common sigma, as the root of its steps of 2^-11 C
+  PackedInteger<1> common_code;     ///< least common sigma: 1 + the root of its steps of 2^-11 C; 0 unknown
 
   static constexpr std::uint8_t kUnknownIncidence = 0xFF;
 
@@ -123,7 +123,8 @@ struct SurfaceCell {
   /// holds two surfaces, and more observations do not bring the mean nearer to either. b is how far a mean
   /// lies from the larger of two populations that are D apart and spread it by e.
   [[nodiscard]] double sigmaOfMean() const;
-  /// The least common sigma of the observations, C.
+  /// The least common sigma, C, of the observations whose angle is known: those of unknown angle may err as
+  /// much. 0 where no angle is known.
   [[nodiscard]] double commonSigma() const;
   /// Weighted standard deviation of the observations about their mean, C.
   [[nodiscard]] double spread() const;

@@ -28,6 +28,9 @@ struct ThermalImage {
   /// The air before the camera, of an image whose temperatures are those at distance 0 (a radiometric frame
   /// of a mission): what a point's own distance makes of them. Null where the temperatures stand as they are.
   std::shared_ptr<const AirPath> air;
+  /// How many times the camera's noise its temperatures have: 1 / (emissivity * window), by which the
+  /// object's radiation was raised to that of a black body. What the air adds is the slope of `air`.
+  float noise_gain = 1.0F;
   /// What lies outside is kept as it is, and is to be marked or counted; empty where it is not known.
   std::optional<CalibratedRange> calibrated_range;
 

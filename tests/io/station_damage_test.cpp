@@ -31,8 +31,8 @@ TEST(Station, RefusesWhatIsNoStation) {
 TEST(Station, RefusesANewerVersion) {
   const TestFolder folder;
   const fs::path path = stationOf(folder, {1});
-  executeSql(path, "PRAGMA user_version = 4");
-  EXPECT_THAT(refusal(path), HasSubstr("written by a newer thermovox (station version 4)"));
+  executeSql(path, "PRAGMA user_version = 5");
+  EXPECT_THAT(refusal(path), HasSubstr("written by a newer thermovox (station version 5)"));
 }
 
 TEST(Station, RefusesTruncatedFiles) {

@@ -5,6 +5,7 @@
 
 #include "io/csv.hpp"
 #include "io/octomap_file.hpp"
+#include "io/station_schema.hpp"
 #include "mapping/surface_cloud.hpp"
 #include "tests/io/stations.hpp"
 
@@ -100,7 +101,7 @@ TEST(StationMigration, AWriterMakesItTheVersionOfToday) {
   EXPECT_EQ(station.counts().missions, 3);
   EXPECT_TRUE(sameMap(station.loadMap(), before));
   const SqlDatabase database(path, SqlDatabase::Mode::read, "plant.tvx");
-  EXPECT_EQ(database.integer("PRAGMA user_version"), 3);
+  EXPECT_EQ(database.integer("PRAGMA user_version"), kStationSchema);
   EXPECT_EQ(database.integer("SELECT count(*) FROM missions WHERE T_world_mission IS NULL"), 3);
 }
 
@@ -142,7 +143,7 @@ TEST(StationMigration, Version2IsContinuedAndMergedAsTheVersionOfToday) {
   EXPECT_THAT(station.verify(), IsEmpty());
   EXPECT_TRUE(sameMap(station.loadMap(), both));
   const SqlDatabase database(path, SqlDatabase::Mode::read, "plant.tvx");
-  EXPECT_EQ(database.integer("PRAGMA user_version"), 3);
+  EXPECT_EQ(database.integer("PRAGMA user_version"), kStationSchema);
 }
 
 }  // namespace

@@ -1,0 +1,85 @@
+#include "mapping/surface_height.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+namespace thermovox {
+namespace {
+
+const Eigen::Vector3d kOrigin(12.0, -7.0, 3.0);
+const Eigen::Vector3d kNormal = Eigen::Vector3d(0.3, -0.5, 0.8).normalized();
+const Eigen::Vector3d kAlong = kNormal.unitOrthogonal();
+const Eigen::Vector3d kAcross = kNormal.cross(kAlong);
+
+/// Points of a surface that lies height(u, v) over the plane, within 0.2 m of a place.
+template <typename Height>
+std::vector<Eigen::Vector3d> points(std::size_t count, Height&& height, double sigma = 0.0,
+                                    std::uint64_t seed = 1) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> place(-0.2, 0.2);
+  std::normal_distribution<double> normal;
+  std::vector<Eigen::Vector3d> points(count);
+  for (Eigen::Vector3d& p : points) {
+    const double u = place(random), v = place(random);
+    p = kOrigin + u * kAlong + v * kAcross + (height(u, v) + sigma * normal(random)) * kNormal;
+  }
+  return points;
+}
+
+TEST(SurfaceHeight, OfATiltedPlaneIsWhereItPassesTheOrigin) {
+  const auto plane = points(40, [](double u, double v) { return 0.013 + 0.3 * u - 0.2 * v; });
+  const auto height = surfaceHeight(plane, kOrigin, kNormal);
+  ASSERT_TRUE(height);
+  EXPECT_NEAR(height->height, 0.013, 1e-10);
+  EXPECT_NEAR(height->sigma, 0.0, 1e-9);
+}
+
+TEST(SurfaceHeight, IsNotFooledByACurvedSurface) {
+  // A pipe of 0.3 m radius: the mean of the points lies 23 mm below its crest.
+  const auto pipe = [](double u, double) { return std::sqrt(0.09 - u * u) - 0.3; };
+  const auto height = surfaceHeight(points(200, pipe), kOrigin, kNormal);
+  ASSERT_TRUE(height);
+  EXPECT_NEAR(height->height, 0.0, 2e-3);  // what the quadric leaves of the fourth order
+  const auto quadric = [](double u, double v) { return 0.02 + u - 2 * v + 3 * u * u - u * v + 0.5 * v * v; };
+  EXPECT_NEAR(surfaceHeight(points(12, quadric), kOrigin, kNormal)->height, 0.02, 1e-9);
+}
+
+TEST(SurfaceHeight, SigmaIsWhatTheHeightScattersBy) {
+  double squares = 0.0, promised = 0.0;
+  constexpr int kRuns = 500;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    const auto flat = points(
+        60, [](double u, double) { return 0.1 * u; }, 0.005, seed);
+    const auto height = surfaceHeight(flat, kOrigin, kNormal);
+    ASSERT_TRUE(height);
+    squares += height->height * height->height;
+    promised += height->sigma * height->sigma;
+  }
+  // The ratio of two variances of 500 runs: good to 6 % at one sigma.
+  EXPECT_NEAR(squares / promised, 1.0, 0.2);
+}
+
+TEST(SurfaceHeight, OfFewPointsIsTheirMean) {
+  std::vector<Eigen::Vector3d> few;
+  for (const double h : {0.01, 0.02, 0.06}) few.push_back(kOrigin + h * kNormal);
+  const auto height = surfaceHeight(few, kOrigin, kNormal);
+  ASSERT_TRUE(height);
+  EXPECT_NEAR(height->height, 0.03, 1e-12);
+  EXPECT_NEAR(height->sigma, std::sqrt(7e-4 / 3.0), 1e-9);  // (4 + 1 + 9)e-4 / 2, over three points
+  EXPECT_FALSE(surfaceHeight({}, kOrigin, kNormal));
+}
+
+TEST(SurfaceHeight, OfPointsOnALineIsTheirMean) {
+  std::vector<Eigen::Vector3d> line;
+  for (int i = 0; i < 30; ++i) line.push_back(kOrigin + (i - 14.5) * 0.01 * kAlong + 0.004 * kNormal);
+  const auto height = surfaceHeight(line, kOrigin, kNormal);
+  ASSERT_TRUE(height);
+  EXPECT_NEAR(height->height, 0.004, 1e-9);
+  EXPECT_TRUE(std::isfinite(height->sigma));
+}
+
+}  // namespace
+}  // namespace thermovox
