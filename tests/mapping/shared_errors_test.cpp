@@ -162,7 +162,7 @@ TEST(SharedCovariance, DoesNotCareWhichWayANormalPoints) {
 }
 
 TEST(SharedCovariance, IsThatOfTheNearestCubeAndZeroFarFromAll) {
-  const Mission mission = standing(laserWith(someCovariance(0.002, 0.004)));
+  const Mission mission = standing(laserWith(someCovariance(0.0, 0.004)));  // the same everywhere
   const std::vector<SharedMotion> motions = motionsOf(mission);
   const Eigen::Vector3d p_world = kT_world_body * kSpot_body;
   const PoseSigmas pose{.translation = 0.01};
@@ -173,6 +173,23 @@ TEST(SharedCovariance, IsThatOfTheNearestCubeAndZeroFarFromAll) {
   EXPECT_TRUE(at(p_world + Eigen::Vector3d(5.0, 0.0, 0.0)).isZero());
   EXPECT_TRUE(sharedCovariance(p_world, Eigen::Vector3d::Zero(), {}, mission.rig, pose).isZero());
   EXPECT_TRUE(at({1e9, -2e9, 1e9}).isZero());
+}
+
+/// A spot half a metre from the returns of its cube turns with its own lever, and is seen along its own ray.
+TEST(SharedCovariance, IsThatOfTheSpotsOwnPlaceInTheCube) {
+  const Mission mission = standing(laserWith(someCovariance(0.002, 0.004)));
+  const Eigen::Vector3d n_world = kT_world_body.rotation * kNormal_body;
+  const Eigen::Vector3d p_world =
+      kT_world_body * (kSpot_body + 0.5 * kNormal_body.unitOrthogonal().normalized());
+  const PoseSigmas pose{.rotation = 0.003};
+  SharedMotions there(mission);
+  there.add(
+      std::vector<PlacedReturn>{
+          {.stamp = kStamp, .p_world = p_world, .origin_world = kT_world_body * kT_body_laser.translation}},
+      0);
+  const Eigen::Matrix3d carried = sharedCovariance(p_world, n_world, motionsOf(mission), mission.rig, pose);
+  const Eigen::Matrix3d own = sharedCovariance(p_world, n_world, there.means(), mission.rig, pose);
+  EXPECT_LT((carried - own).norm(), 1e-5 * own.norm());  // floats
 }
 
 TEST(SharedMotions, OfSightsFromAllSidesMoveTheSpotLess) {
