@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
   thermovox::addMerge(app);
   thermovox::addHotspots(app);
   thermovox::addDiff(app);
+  thermovox::addLocate(app);
   thermovox::addExport(app);
   thermovox::addImage(app);
   thermovox::addInfo(app);
