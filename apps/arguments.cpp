@@ -6,6 +6,8 @@
 #include "apps/usable_memory.hpp"
 #include "io/atomic_file.hpp"
 #include "io/number_text.hpp"
+#include "io/input_file.hpp"
+#include "io/pose_text.hpp"
 
 namespace thermovox {
 namespace {
@@ -70,6 +72,13 @@ void addMemoryOption(CLI::App& verb, std::uint64_t& bytes, const std::string& he
   verb.add_option_function<std::uint64_t>("--memory", set,
                                           help + " (default: half of the machine's or container's)")
       ->type_name("MB");
+}
+
+Pose poseFrom(const std::string& text, const std::string& option) {
+  const bool is_file = std::filesystem::is_regular_file(text);
+  if (const std::optional<Pose> pose = parsePose(is_file ? readWhole(text) : text)) return *pose;
+  throw UsageError(option + ": found '" + text +
+                   "', expected \"tx ty tz qx qy qz qw\" with a unit quaternion, or a file that holds that");
 }
 
 void checkEnding(const std::filesystem::path& path, const std::vector<std::string>& endings) {

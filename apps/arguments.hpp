@@ -9,6 +9,7 @@
 
 #include "io/palette.hpp"
 #include "projection/error.hpp"
+#include "projection/pose.hpp"
 
 namespace thermovox {
 
@@ -49,6 +50,10 @@ void addThreadsOption(CLI::App& verb, int& threads);
 
 /// `--memory MB`, kept in bytes; half of what this process may use where it is not given.
 void addMemoryOption(CLI::App& verb, std::uint64_t& bytes, const std::string& help);
+
+/// A pose that was given as seven numbers, "tx ty tz qx qy qz qw", or as the name of a file that holds them.
+/// Throws UsageError naming the option for anything else.
+[[nodiscard]] Pose poseFrom(const std::string& text, const std::string& option);
 
 /// Throws UsageError unless the path's ending, whatever its case, is one of these.
 void checkEnding(const std::filesystem::path& path, const std::vector<std::string>& endings);

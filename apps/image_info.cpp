@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "apps/radiometry_options.hpp"
 #include "io/celsius_decoder.hpp"
 #include "io/thermal_recording.hpp"
 #include "projection/error.hpp"
@@ -107,11 +108,7 @@ void checkKnowledge(const ImageKnowledge& knowledge, const RawThermalImage& imag
         ": has no radiometric parameters of its own, expected a FLIR file where one of them is to "
         "be replaced");
   }
-  if (knowledge.t_linear && image.rule_source != RuleSource::option) {
-    throw DataError(name +
-                    ": its pixels have a meaning of their own, expected a TIFF of counts for "
-                    "--celsius-per-count");
-  }
+  checkScale(knowledge.t_linear, image, name);
 }
 
 void putTemperatures(Json& json, const RawThermalImage& image, const std::string& name,

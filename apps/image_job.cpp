@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "apps/radiometry_options.hpp"
 #include "io/celsius_decoder.hpp"
 #include "io/scale_warning.hpp"
 #include "io/thermal_picture.hpp"
@@ -30,14 +31,6 @@ void warnAbout(const ImageJob& job, const fs::path& in, const RawThermalImage& i
   if (job.t_linear) return;
   const auto warning = scaleWarning(image, in.string(), {"the rig", "--celsius-per-count"});
   if (warning) spdlog::warn("{}", *warning);
-}
-
-void checkScale(const ImageJob& job, const fs::path& in, const RawThermalImage& image) {
-  if (job.t_linear && image.rule_source != RuleSource::option) {
-    throw DataError(in.string() +
-                    ": its pixels have a meaning of their own, expected a TIFF of counts for "
-                    "--celsius-per-count");
-  }
 }
 
 TiffPlan planOf(const RawThermalImage& image, int pages, bool counts) {
@@ -124,7 +117,7 @@ std::string writeImage(const ImageJob& job, const fs::path& in, const fs::path& 
   std::string summary;
   for (int frame = first; frame <= last; ++frame) {
     const RawThermalImage raw = recording->read(frame);
-    if (frame == first) checkScale(job, in, raw);
+    if (frame == first) checkScale(job.t_linear, raw, in.string());
     const std::string name =
         recording->frames() == 1 ? in.string() : fmt::format("{}, frame {}", in.string(), frame);
     const std::string told = writer.add(raw, name);

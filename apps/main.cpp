@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   thermovox::addHotspots(app);
   thermovox::addDiff(app);
   thermovox::addReport(app);
+  thermovox::addLocate(app);
   thermovox::addExport(app);
   thermovox::addImage(app);
   thermovox::addInfo(app);

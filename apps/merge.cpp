@@ -12,8 +12,6 @@
 #include "apps/arguments.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
-#include "io/input_file.hpp"
-#include "io/pose_text.hpp"
 #include "io/station_merge.hpp"
 
 namespace thermovox {
@@ -30,18 +28,11 @@ struct MergeArgs {
   bool json = false;
 };
 
-/// The seven numbers, or what is in the file of that name.
-Pose poseFrom(const std::string& text) {
-  const bool is_file = fs::is_regular_file(text);
-  if (const std::optional<Pose> pose = parsePose(is_file ? readWhole(text) : text)) return *pose;
-  throw UsageError("--transform: found '" + text +
-                   "', expected \"tx ty tz qx qy qz qw\" with a unit quaternion, or a file that holds that");
-}
-
 /// `POSE` moves every station but the first, `STATION=POSE` the one of that name.
 void applyTransform(const std::string& transform, std::vector<MergeInput>& inputs) {
   const std::size_t sign = transform.find('=');
-  const Pose pose = poseFrom(sign == std::string::npos ? transform : transform.substr(sign + 1));
+  const Pose pose =
+      poseFrom(sign == std::string::npos ? transform : transform.substr(sign + 1), "--transform");
   const fs::path named = sign == std::string::npos ? "" : transform.substr(0, sign);
   bool applied = false;
   for (std::size_t i = named.empty() ? 1 : 0; i < inputs.size(); ++i) {

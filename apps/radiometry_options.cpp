@@ -48,6 +48,13 @@ void addScaleOptions(CLI::App& verb, ScaleArgs& args, const std::string& otherwi
       ->needs(per_count);
 }
 
+void checkScale(const std::optional<TLinear>& asked, const RawThermalImage& image, const std::string& name) {
+  if (!asked || image.rule_source == RuleSource::option) return;
+  throw DataError(name +
+                  ": its pixels have a meaning of their own, expected a TIFF of counts for "
+                  "--celsius-per-count");
+}
+
 void checkRadiometry(const RadiometricOverrides& overrides) {
   try {
     overrides.validate();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "io/raw_thermal_image.hpp"
 #include "projection/radiometric_overrides.hpp"
 
 namespace thermovox {
@@ -27,6 +28,10 @@ struct ScaleArgs {
 };
 /// `--celsius-per-count` and `--celsius-offset`. `otherwise` says what holds without them.
 void addScaleOptions(CLI::App& verb, ScaleArgs& args, const std::string& otherwise);
+
+/// Throws DataError where the user has said what the counts of an image are that says it itself. `name`
+/// stands for the image.
+void checkScale(const std::optional<TLinear>& asked, const RawThermalImage& image, const std::string& name);
 
 /// Throws UsageError for a value that cannot be.
 void checkRadiometry(const RadiometricOverrides& overrides);

@@ -8,6 +8,7 @@ namespace thermovox {
 
 // One verb, one file: parse, one library call, one report.
 void addSimulate(CLI::App& app);
+void addLocate(CLI::App& app);
 void addMap(CLI::App& app);
 void addMerge(CLI::App& app);
 void addHotspots(CLI::App& app);
