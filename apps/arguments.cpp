@@ -5,8 +5,8 @@
 
 #include "apps/usable_memory.hpp"
 #include "io/atomic_file.hpp"
-#include "io/number_text.hpp"
 #include "io/input_file.hpp"
+#include "io/number_text.hpp"
 #include "io/pose_text.hpp"
 
 namespace thermovox {
