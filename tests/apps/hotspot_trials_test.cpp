@@ -8,10 +8,10 @@ namespace {
 
 constexpr std::size_t kRuns = 30;
 
-// Two joints of one run share its errors, so that 30 runs are worth 30 draws or little more. Of 30 draws, with
-// 95 % within, fewer than 25 are within once in a thousand times. The mean of 30 chi squared with three
-// degrees of freedom, each divided by three, lies outside 0.55 to 1.6 once in two hundred times; bars that are
-// twice too wide or too narrow make it 0.25 or 4.
+// Two joints of one run share its errors, so that 30 runs are worth 30 draws or little more. Of 30 draws,
+// with 95 % within, fewer than 25 are within once in a thousand times. The mean of 30 chi squared with three
+// degrees of freedom, each divided by three, lies outside 0.55 to 1.6 once in two hundred times; bars that
+// are twice too wide or too narrow make it 0.25 or 4.
 TEST(HotspotTrials, WithAllErrorsDrawnTheBarsHoldTheTruth) {
   const TrialSummary summary = summaryOf(hotspotTrials(errorSets().back().errors, 1, kRuns));
   EXPECT_GE(summary.found, summary.joints - 1);

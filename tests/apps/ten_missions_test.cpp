@@ -2,6 +2,7 @@
 // seen is planned, and what the station tells of them is to be just that.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
