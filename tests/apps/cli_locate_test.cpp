@@ -80,7 +80,8 @@ TEST_F(LocateVerb, SaysWhereInCameraBodyAndWorld) {
   EXPECT_NEAR(blob["noise_sigma"].get<double>(), 0.1, 1e-9);
   EXPECT_EQ(blob["bias_sigma"], 2.0);
   EXPECT_NEAR(blob["peak_sigma"].get<double>(), std::hypot(0.1, 2.0), 1e-9);
-  // Along the beam, the world's y: range noise and bias; half the depth's error goes along the ray sideways.
+  // Along the beam, the world's y: range noise and bias. Sideways the ray (0.24 of the depth) takes its
+  // share.
   EXPECT_NEAR(blob["covariance"][1][1].get<double>(), 80e-6, 1e-9);
   EXPECT_NEAR(blob["covariance_common_body"][0][0].get<double>(), 16e-6, 1e-9);
   EXPECT_GT(blob["covariance"][0][0].get<double>(), 80e-6 * 0.24 * 0.24);
@@ -153,7 +154,7 @@ TEST_F(LocateVerb, RefusesWhatItCannotUse) {
   writeTiff(folder / "small.tiff", TiffPages<float>{4, 3, {std::vector<float>(12, 50.0F)}});
   expectRefused(folder.path(), "locate small.tiff --rig rig.yaml" + rest,
                 {"small.tiff", "4 x 3 pixels, expected 40 x 30"});
-  expectRefused(folder.path(), "locate none.tiff --rig rig.yaml" + rest, {"none.tiff", "does not exist"});
+  expectRefused(folder.path(), "locate none.tiff --rig rig.yaml" + rest, {"none.tiff", "no such file"});
 }
 
 TEST_F(LocateVerb, RefusesWrongUsage) {

@@ -136,10 +136,14 @@ TEST(FitPeak, IsALeastSquareWithTheCovarianceOfNumericDerivatives) {
     for (int i = 0; i < 6; ++i) {
       EXPECT_LT(std::abs(J.col(i).dot(r)), 1e-5 * J.col(i).norm() * r.norm()) << "parameter " << i;
     }
-    const double chi2 = r.head(static_cast<Eigen::Index>(samples.size())).squaredNorm() /
-                        (static_cast<double>(samples.size()) - 6.0);
-    EXPECT_NEAR(fit->misfit, std::sqrt(chi2), 1e-9);
-    const Eigen::MatrixXd covariance = (J.transpose() * J).inverse() * std::max(chi2, 1.0);
+    const auto n = static_cast<Eigen::Index>(samples.size());
+    const double chi2 = r.head(n).squaredNorm(), freedom = static_cast<double>(n) - 6.0;
+    EXPECT_NEAR(fit->misfit, std::sqrt(chi2 / freedom), 1e-9);
+    // The samples by their scatter, with ten samples' weight on their own sigmas; the prior by its own.
+    const double scale = (chi2 + 10.0) / (freedom + 10.0);
+    const Eigen::MatrixXd known =
+        J.topRows(n).transpose() * J.topRows(n) / scale + J.bottomRows(5).transpose() * J.bottomRows(5);
+    const Eigen::MatrixXd covariance = known.inverse();
     EXPECT_LT((fit->covariance - covariance).norm(), 1e-4 * covariance.norm());
   }
 }
