@@ -201,7 +201,9 @@ bool SurfaceCell::isPlausible() const {
 }
 
 bool SurfaceCell::hasPlausibleTemperature() const {
-  const auto most_weight = static_cast<std::uint64_t>(weightOf(kMinSigma, 0.0) + 0.5);
+  // Of several observations those of unknown angle weigh as if they had nothing in common.
+  const double common = observations == 1 ? commonSigma() : 0.0;
+  const auto most_weight = static_cast<std::uint64_t>(weightOf(kMinSigma, common) + 0.5);
   constexpr auto most_first = (std::uint64_t{1} << 32) - 1;
   if (observations > kMaxObservations) return false;
   if (weight_sum < observations || weight_sum > observations * most_weight) return false;

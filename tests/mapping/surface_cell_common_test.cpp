@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "mapping/surface_cell.hpp"
@@ -123,10 +124,26 @@ TEST(CommonSigma, GoesWithTheSumsOfTheBusierOfTwoThatAreTooManyTogether) {
   EXPECT_TRUE(both.isPlausible());
 }
 
+TEST(CommonSigma, OfViewsOfUnknownAngleIsThatOfTheKnownOnes) {
+  constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+  SurfaceCell cell;
+  for (int i = 0; i < 100; ++i) cell.addTemperature(seen(40.0, 0.05, 4.0), kNoon);
+  SurfaceCell sparse;
+  sparse.addTemperature({.celsius = 44.0F, .sigma = 0.05F, .range = 3.0F, .incidence = unknown}, kNoon);
+  EXPECT_EQ(sparse.commonSigma(), 0.0);
+  SurfaceCell both = cell;
+  both.merge(sparse);
+  EXPECT_NEAR(both.commonSigma(), 4.0, 0.1);
+  EXPECT_GT(both.sigmaOfMean(), 3.9);
+  sparse.merge(cell);
+  EXPECT_EQ(sparse, both);
+  EXPECT_TRUE(both.isPlausible());
+}
+
 TEST(CommonSigma, IsTakenWithinWhatAByteHolds) {
   SurfaceCell cell;
   cell.addTemperature(seen(40.0, 0.1, 1000.0), kNoon);
-  EXPECT_NEAR(cell.commonSigma(), 31.75, 0.01);
+  EXPECT_NEAR(cell.commonSigma(), 31.50, 0.01);
   EXPECT_TRUE(cell.isPlausible());
   EXPECT_THROW(cell.addTemperature(seen(40.0, 0.1, std::nan("")), kNoon), DataError);
 }

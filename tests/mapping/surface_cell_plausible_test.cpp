@@ -74,7 +74,11 @@ TEST(PlausibleCell, HasSumsThatItsCountsCanGive) {
   EXPECT_FALSE(passes(cell, scaled(1e4)));  // more than five observations of the smallest sigma
   EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.weight_sum = 4; }));
   EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.weight_sum = 0; }));
-  EXPECT_FALSE(passes(cell, [](SurfaceCell& c) { c.common_code = 200; }));  // 20 C: too heavy for that
+  SurfaceCell one;
+  one.addReturn(Eigen::Vector3d::Constant(0.5));
+  one.addTemperature({.celsius = 20.0F, .sigma = 0.1F, .range = 3.0F}, Time(std::chrono::hours(12)));
+  EXPECT_TRUE(passes(one, [](SurfaceCell&) {}));
+  EXPECT_FALSE(passes(one, [](SurfaceCell& c) { c.common_code = 200; }));  // 19 C: too heavy for that
 }
 
 TEST(PlausibleCell, HasMomentsThatFitItsExtremes) {
