@@ -148,7 +148,7 @@ class Detection {
   void putOnSurface(const std::vector<PeakSample>& samples, const PeakModel& model, PeakPrior& prior) const {
     prior.guess.centre = model.centre;
     if (prior.normal.isZero()) return;
-    std::vector<SurfacePoint> near;
+    std::vector<HeightPoint> near;
     const double radius = std::max(2.0 * model.width, 3.0 * layer_.resolution());
     for (const PeakSample& sample : samples) {
       if (sample.returns > 0 && (sample.p_world - model.centre).norm() < radius) {

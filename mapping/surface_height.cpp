@@ -18,13 +18,13 @@ struct Column {
   double returns = 0.0;
 };
 
-std::vector<Column> columnsOf(std::span<const SurfacePoint> points, const Eigen::Vector3d& origin,
+std::vector<Column> columnsOf(std::span<const HeightPoint> points, const Eigen::Vector3d& origin,
                               const Eigen::Vector3d& normal, double edge) {
   const Eigen::Vector3d along = normal.unitOrthogonal();
   Eigen::Matrix3d to_plane;
   to_plane << along.transpose(), normal.cross(along).transpose(), normal.transpose();
   std::map<std::pair<int, int>, Column> columns;
-  for (const SurfacePoint& point : points) {
+  for (const HeightPoint& point : points) {
     const Eigen::Vector3d uvh = to_plane * (point.p_world - origin);
     Column& column =
         columns[{static_cast<int>(std::floor(uvh.x() / edge)), static_cast<int>(std::floor(uvh.y() / edge))}];
@@ -50,9 +50,8 @@ SurfaceHeight meanHeight(const std::vector<Column>& columns) {
 
 }  // namespace
 
-std::optional<SurfaceHeight> surfaceHeight(std::span<const SurfacePoint> points,
-                                           const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
-                                           double edge) {
+std::optional<SurfaceHeight> surfaceHeight(std::span<const HeightPoint> points, const Eigen::Vector3d& origin,
+                                           const Eigen::Vector3d& normal, double edge) {
   if (points.empty()) return std::nullopt;
   const std::vector<Column> columns = columnsOf(points, origin, normal, edge);
   if (columns.size() < kForQuadric) return meanHeight(columns);

@@ -8,7 +8,7 @@
 namespace thermovox {
 
 /// The mean of some returns of a surface: those of a cell.
-struct SurfacePoint {
+struct HeightPoint {
   Eigen::Vector3d p_world;  ///< metres
   double returns = 1.0;     ///< how many; more than 0
 };
@@ -25,7 +25,7 @@ struct SurfaceHeight {
 /// counts the same: the noise of the ranges puts some returns of a surface near a border of cells beyond it,
 /// and these few must not stand for as much as the many before it. With fewer than twelve columns their mean;
 /// none without points.
-[[nodiscard]] std::optional<SurfaceHeight> surfaceHeight(std::span<const SurfacePoint> points,
+[[nodiscard]] std::optional<SurfaceHeight> surfaceHeight(std::span<const HeightPoint> points,
                                                          const Eigen::Vector3d& origin,
                                                          const Eigen::Vector3d& normal, double edge);
 

@@ -19,13 +19,13 @@ const Eigen::Vector3d kAcross = kNormal.cross(kAlong);
 
 /// Points of a surface that lies height(u, v) over the plane, within 0.2 m of a place.
 template <typename Height>
-std::vector<SurfacePoint> points(std::size_t count, Height&& height, double sigma = 0.0,
-                                 std::uint64_t seed = 1) {
+std::vector<HeightPoint> points(std::size_t count, Height&& height, double sigma = 0.0,
+                                std::uint64_t seed = 1) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> place(-0.2, 0.2);
   std::normal_distribution<double> normal;
-  std::vector<SurfacePoint> points(count);
-  for (SurfacePoint& point : points) {
+  std::vector<HeightPoint> points(count);
+  for (HeightPoint& point : points) {
     const double u = place(random), v = place(random);
     point.p_world = kOrigin + u * kAlong + v * kAcross + (height(u, v) + sigma * normal(random)) * kNormal;
   }
@@ -66,7 +66,7 @@ TEST(SurfaceHeight, SigmaIsWhatTheHeightScattersBy) {
 }
 
 TEST(SurfaceHeight, OfFewPointsIsTheirMean) {
-  std::vector<SurfacePoint> few;
+  std::vector<HeightPoint> few;
   for (const double h : {0.01, 0.02, 0.06}) few.push_back({kOrigin + h * kAlong + h * kNormal});
   const auto height = surfaceHeight(few, kOrigin, kNormal, kEachAlone);
   ASSERT_TRUE(height);
@@ -76,7 +76,7 @@ TEST(SurfaceHeight, OfFewPointsIsTheirMean) {
 }
 
 TEST(SurfaceHeight, OfPointsOnALineIsTheirMean) {
-  std::vector<SurfacePoint> line;
+  std::vector<HeightPoint> line;
   for (int i = 0; i < 30; ++i) line.push_back({kOrigin + (i - 14.5) * 0.01 * kAlong + 0.004 * kNormal});
   const auto height = surfaceHeight(line, kOrigin, kNormal, kEachAlone);
   ASSERT_TRUE(height);
@@ -85,27 +85,27 @@ TEST(SurfaceHeight, OfPointsOnALineIsTheirMean) {
 }
 
 TEST(SurfaceHeight, CountsReturnsAndNotTheCellsThatHoldThem) {
-  const std::vector<SurfacePoint> two{{kOrigin + 0.02 * kNormal, 30.0},
-                                      {kOrigin + 0.1 * kAlong + 0.06 * kNormal, 10.0}};
+  const std::vector<HeightPoint> two{{kOrigin + 0.02 * kNormal, 30.0},
+                                     {kOrigin + 0.1 * kAlong + 0.06 * kNormal, 10.0}};
   EXPECT_NEAR(surfaceHeight(two, kOrigin, kNormal, kEachAlone)->height, 0.03, 1e-12);
 }
 
 /// 1500 returns of a wall z = `wall` with noise of 1 cm, cell by cell of 5 cm as a map holds them.
-std::vector<SurfacePoint> cellsOfWall(double wall, std::uint64_t seed) {
+std::vector<HeightPoint> cellsOfWall(double wall, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> place(-0.2, 0.2);
   std::normal_distribution<double> noise(wall, 0.01);
-  std::map<std::tuple<int, int, int>, SurfacePoint> cells;
+  std::map<std::tuple<int, int, int>, HeightPoint> cells;
   for (int i = 0; i < 1500; ++i) {
     const Eigen::Vector3d p(place(random), place(random), noise(random));
     const auto index = [&](int axis) { return static_cast<int>(std::floor(p[axis] / 0.05)); };
-    SurfacePoint& cell =
-        cells.try_emplace({index(0), index(1), index(2)}, SurfacePoint{Eigen::Vector3d::Zero(), 0.0})
+    HeightPoint& cell =
+        cells.try_emplace({index(0), index(1), index(2)}, HeightPoint{Eigen::Vector3d::Zero(), 0.0})
             .first->second;
     cell.p_world += p;
     cell.returns += 1.0;
   }
-  std::vector<SurfacePoint> points;
+  std::vector<HeightPoint> points;
   for (const auto& [key, cell] : cells) points.push_back({cell.p_world / cell.returns, cell.returns});
   return points;
 }
