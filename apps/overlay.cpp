@@ -16,6 +16,7 @@
 #include "apps/radiometry_options.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
+#include "io/folders.hpp"
 #include "io/mission_folder.hpp"
 #include "io/mission_pictures.hpp"
 #include "io/overlay_picture.hpp"
@@ -183,12 +184,6 @@ class OverlaySeries {
   std::size_t pictures_ = 0;
   std::size_t with_edges_ = 0;
 };
-
-/// "overlays/" is the folder "overlays".
-fs::path withoutSlash(const fs::path& folder) {
-  const fs::path normal = folder.lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
-}
 
 /// A folder beside its name that goes when it does not get that name.
 class PartialFolder {

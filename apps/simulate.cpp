@@ -10,6 +10,7 @@
 #include "apps/simulate/mission_writer.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
+#include "io/folders.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -60,12 +61,6 @@ class SetAside {
   fs::path aside_;
   bool moved_ = false;
 };
-
-/// "hall/" is the folder "hall".
-fs::path withoutSlash(const fs::path& folder) {
-  const fs::path normal = folder.lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
-}
 
 void replaceMission(const simulate::SimulationOptions& options, const fs::path& out) {
   const bool empty = fs::is_directory(out) && fs::is_empty(out);

@@ -7,6 +7,7 @@
 #include "mapping/hot_clusters.hpp"
 #include "mapping/local_plane.hpp"
 #include "mapping/peak_model.hpp"
+#include "mapping/percentile.hpp"
 #include "mapping/surface_height.hpp"
 #include "projection/error.hpp"
 
@@ -229,11 +230,7 @@ class Detection {
     }
     std::sort(temperatures.begin(), temperatures.end());
     spot.hottest_cell = temperatures.back();
-    const double place = 0.95 * static_cast<double>(temperatures.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const double share = place - std::floor(place);
-    spot.p95 = temperatures[below] +
-               share * (temperatures[std::min(below + 1, temperatures.size() - 1)] - temperatures[below]);
+    spot.p95 = percentile(temperatures, 0.95);
     for (const double t : temperatures) spot.mean += t / static_cast<double>(temperatures.size());
     spot.extent = high - low;
     spot.area = areaOf(candidate);

@@ -25,16 +25,14 @@ std::variant<Colour, NoColour> colour(const PlacedReturn& point, const ThermalVi
   const std::optional<Eigen::Vector2d> pixel = camera.camera.project({p.x, p.y, p.z});
   if (!pixel) return NoColour::outside_image;
   if (occluder.hides({view.T_world_camera.translation, point.p_world, *pixel, p.z})) return NoColour::hidden;
-  const ThermalImage& image = *view.frame.image;
-  const std::optional<TemperatureSample> sample =
-      sampleTemperature(image, *pixel, camera.netd * image.noise_gain);
+  const std::optional<TemperatureSample> sample = sampleTemperature(*view.frame.image, *pixel, view.noise);
   if (!sample) return NoColour::unknown_pixel;
 
   const float variance_px2 = pixelVariance(view.projector, p, point.rig_covariance);
   const float local_variance = view.local_variance.at(*pixel, variance_px2);
   const float sigma = std::sqrt(sample->noise_sigma * sample->noise_sigma + local_variance);
   const auto range = static_cast<float>(std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z));
-  const AirPath* const air = image.air.get();
+  const AirPath* const air = view.frame.image->air.get();
   if (air == nullptr) return Colour{view.frame.stamp, *pixel, sample->celsius, sigma, range};
   const AirPath::Corrected corrected = air->at(sample->celsius, range);
   if (std::isnan(corrected.celsius)) return NoColour::unknown_pixel;

@@ -64,7 +64,7 @@ THERMOVOX_INLINE_LOOP void judgeLoop(ColouringBlock& block, const SeeingFrame& f
   findErrors<kModel>(block, frame.view.projector, image.shares());
   readTemperatures(block, image.texels(), image.stride());
   readVariances(block, image.texels(), image.stride());
-  sampleCorners(block, static_cast<float>(frame.camera.netd * frame.view.frame.image->noise_gain));
+  sampleCorners(block, static_cast<float>(frame.view.noise));
   sumErrors(block);
 }
 template <LensModel kModel>

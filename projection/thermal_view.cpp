@@ -35,6 +35,7 @@ ThermalView::ThermalView(ThermalFrame thermal_frame, const Pose& camera_in_world
       T_world_camera(camera_in_world),
       T_camera_world(camera_in_world.inverse()),
       projector{camera.camera.numbers(), RigidNumbers(T_camera_world)},
-      local_variance(*frame.image, camera.blur_px, camera.netd * frame.image->noise_gain) {}
+      noise(camera.netd * frame.image->noise_gain),
+      local_variance(*frame.image, camera.blur_px, noise) {}
 
 }  // namespace thermovox

@@ -31,6 +31,7 @@ struct ThermalView {
   Pose T_world_camera;
   Pose T_camera_world;
   Projector projector;  ///< world to pixel
+  double noise;  ///< of one pixel of this frame, one sigma, C: the camera's, raised as its temperatures are
   LocalVariance local_variance;
 
   /// T_world_camera is the camera's pose at the frame's own time.

@@ -64,14 +64,6 @@ std::string cameraInfo(const FlirFile& file) {
                                     file.camera_info_size, file.records);
 }
 
-std::string zlibbed(const std::string& data) {
-  libdeflate_compressor* compressor = libdeflate_alloc_compressor(6);
-  std::string packed(libdeflate_zlib_compress_bound(compressor, data.size()), '\0');
-  packed.resize(libdeflate_zlib_compress(compressor, data.data(), data.size(), packed.data(), packed.size()));
-  libdeflate_free_compressor(compressor);
-  return packed;
-}
-
 std::string pngChunk(const std::string& type, const std::string& data) {
   std::string chunk;
   append(chunk, static_cast<std::uint32_t>(data.size()), ByteOrder::big);
@@ -160,6 +152,14 @@ std::string radiometricJpeg(const std::string& frame, const JpegCut& cut) {
   jpeg += cut.before;
   for (const std::string& segment : segments) jpeg += segment;
   return jpeg + "\xFF\xDA" + std::string(20, 'x') + "\xFF\xD9";
+}
+
+std::string zlibbed(const std::string& data) {
+  libdeflate_compressor* compressor = libdeflate_alloc_compressor(6);
+  std::string packed(libdeflate_zlib_compress_bound(compressor, data.size()), '\0');
+  packed.resize(libdeflate_zlib_compress(compressor, data.data(), data.size(), packed.data(), packed.size()));
+  libdeflate_free_compressor(compressor);
+  return packed;
 }
 
 std::string grey16Png(int width, int height, const std::vector<std::uint16_t>& samples) {

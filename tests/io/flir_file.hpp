@@ -51,6 +51,8 @@ struct JpegCut {
 /// An Exif segment with make and model.
 [[nodiscard]] std::string exifSegment(const std::string& make, const std::string& model);
 
+/// The data as a zlib stream.
+[[nodiscard]] std::string zlibbed(const std::string& data);
 /// A PNG of one grey channel of 16 bits whose rows take turns with all five filters.
 [[nodiscard]] std::string grey16Png(int width, int height, const std::vector<std::uint16_t>& samples);
 /// A JPEG-LS picture of one channel of 16 bits.

@@ -1,7 +1,6 @@
 #include "io/png_counts.hpp"
 
 #include <gmock/gmock.h>
-#include <libdeflate.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -16,6 +15,8 @@
 
 namespace thermovox {
 namespace {
+
+using test::zlibbed;
 
 using test::messageOf;
 using testing::AllOf;
@@ -52,14 +53,6 @@ std::string bigEndian(std::uint32_t number) {
 
 std::string chunk(const std::string& type, const std::string& data) {
   return bigEndian(static_cast<std::uint32_t>(data.size())) + type + data + "crc.";
-}
-
-std::string zlibbed(const std::string& data) {
-  libdeflate_compressor* compressor = libdeflate_alloc_compressor(6);
-  std::string packed(libdeflate_zlib_compress_bound(compressor, data.size()), '\0');
-  packed.resize(libdeflate_zlib_compress(compressor, data.data(), data.size(), packed.data(), packed.size()));
-  libdeflate_free_compressor(compressor);
-  return packed;
 }
 
 /// The header of a PNG of grey 16-bit pixels; `kind` is bits, colour type, compression, filter, interlace.

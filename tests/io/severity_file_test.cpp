@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "projection/error.hpp"
+#include "tests/io/readme_example.hpp"
 #include "tests/support/recordings.hpp"
 
 namespace thermovox {
@@ -13,16 +14,11 @@ using testing::HasSubstr;
 
 /// The table that io/README.md shows.
 std::string example() {
-  const std::string readme = test::bytesOf(std::filesystem::path(THERMOVOX_SOURCE_DIR) / "io" / "README.md");
-  const std::size_t begin = readme.find("name: ANSI/NETA");
-  return readme.substr(begin, readme.find("```", begin) - begin);
+  return test::readmeExample("name: ANSI/NETA");
 }
 
 std::string with(std::string_view old_part, std::string_view new_part) {
-  std::string text = example();
-  const std::size_t place = text.find(old_part);
-  EXPECT_NE(place, std::string::npos) << old_part;
-  return text.replace(place, old_part.size(), new_part);
+  return test::replaced(example(), old_part, new_part);
 }
 
 std::string complaintAbout(const std::string& text) {
