@@ -19,7 +19,7 @@ Rig rigOf(const MissionRecord& mission, const Station& station) {
 std::vector<Hotspot> hotspotsOf(const SurfaceLayer& layer, const MissionRecord& mission, const Rig& rig,
                                 const HotspotCriteria& criteria) {
   const CameraSharpness sharpness = rig.thermal_camera ? sharpnessOf(*rig.thermal_camera) : CameraSharpness{};
-  std::vector<Hotspot> spots = findHotspots(layer, criteria, sharpness);
+  std::vector<Hotspot> spots = findHotspots(layer, criteria, sharpness, mission.frame_poses);
   for (const SharedMotion& motion : mission.shared_motions) {
     if (motion.laser < rig.lasers.size()) continue;
     throw DataError("the mission '" + mission.name + "' has returns of laser " +

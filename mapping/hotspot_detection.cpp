@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mapping/best_frame.hpp"
 #include "mapping/hot_clusters.hpp"
 #include "mapping/local_plane.hpp"
 #include "mapping/peak_model.hpp"
@@ -21,7 +22,8 @@ constexpr double kGap = 0.15;                 // metres between a spot and its s
 constexpr double kBand = 2.0;                 // cells off its plane that a peak is fitted to
 constexpr double kMostBlur = 0.75;            // of the variance of a peak's shape that blur may make up
 constexpr double kInterpolation = 1.0 / 6.0;  // variance of linear interpolation, px^2
-constexpr double kBlurSigma = 0.05;  // of the blur itself, as a share: a rig tells it with one or two digits
+constexpr double kOblique = 0.42;             // cosine of the angle beyond which views are left out: 65 degrees
+constexpr std::size_t kEnough = 12;           // samples without them
 constexpr double kLeastModelError = 0.01;    // of a peak's rise
 constexpr double kLeastSurfaceSigma = 5e-4;  // metres
 constexpr double kExplained = 0.3;           // of its excess that a piece may differ from a model by
@@ -41,9 +43,11 @@ struct Candidate {
 /// One mission's layer and what of it is hot.
 class Detection {
  public:
-  Detection(const SurfaceLayer& layer, const HotspotCriteria& criteria, const CameraSharpness& camera)
+  Detection(const SurfaceLayer& layer, const HotspotCriteria& criteria, const CameraSharpness& camera,
+            std::span<const FramePose> frames)
       : layer_(layer),
         camera_(camera),
+        frames_(frames),
         clusters_(hotClusters(layer, criteria)),
         hot_(layer.samples().size()) {
     for (const HotCluster& cluster : clusters_) {
@@ -134,15 +138,24 @@ class Detection {
   }
 
   [[nodiscard]] std::vector<PeakSample> samplesAround(const Candidate& candidate, double radius) const {
-    std::vector<PeakSample> samples;
+    std::vector<PeakSample> facing, all;
     for (const std::uint32_t i : layer_.within(candidate.centroid, radius)) {
       const SurfaceSample& sample = layer_[i];
       const double off = candidate.normal.dot(sample.p_world - candidate.centroid);
       const bool own = std::binary_search(candidate.cells.begin(), candidate.cells.end(), i);
       if (!own && (hot_[i] || std::abs(off) > kBand * layer_.resolution())) continue;
-      samples.push_back({sample.p_world, sample.celsius, sample.sigma, sample.returns});
+      const Eigen::Vector3d normal = normalAt(i, candidate);
+      const Eigen::Vector3d view = viewOf(sample, normal, frames_);
+      all.push_back({sample.p_world, sample.celsius, sample.sigma, sample.returns,
+                     surfaceBlur(view, normal, blurSigma())});
+      if (normal.isZero() || std::abs(view.normalized().dot(normal)) >= kOblique) facing.push_back(all.back());
     }
-    return samples;
+    return facing.size() >= kEnough ? facing : all;
+  }
+
+  [[nodiscard]] Eigen::Vector3d normalAt(std::uint32_t i, const Candidate& candidate) const {
+    const Eigen::Vector3f& own = layer_.normal(i);
+    return own.isZero() ? candidate.normal : own.cast<double>();
   }
 
   /// The peak lies on the surface, which the samples know better than their temperatures do.
@@ -170,7 +183,7 @@ class Detection {
       HotCluster& piece = clusters_[other];
       const bool explained = !piece.empty() && std::all_of(piece.begin(), piece.end(), [&](std::uint32_t i) {
         const double excess = layer_[i].celsius - candidate.reference.celsius;
-        return std::abs(layer_[i].celsius - model.at(layer_[i].p_world)) <
+        return std::abs(layer_[i].celsius - model.at(layer_[i].p_world, blurAt(i, candidate))) <
                std::max(kExplained * excess, kSure * layer_[i].sigma);
       });
       if (!explained) continue;
@@ -180,6 +193,11 @@ class Detection {
     }
     std::sort(candidate.cells.begin(), candidate.cells.end());
     return any;
+  }
+
+  [[nodiscard]] SurfaceBlur blurAt(std::uint32_t i, const Candidate& candidate) const {
+    const Eigen::Vector3d normal = normalAt(i, candidate);
+    return surfaceBlur(viewOf(layer_[i], normal, frames_), normal, blurSigma());
   }
 
   [[nodiscard]] bool standsOut(const Candidate& candidate) const {
@@ -247,30 +265,24 @@ class Detection {
     return static_cast<double>(candidate.cells.size()) * layer_.resolution() * layer_.resolution() / cells;
   }
 
-  /// Variance by which optics, pixel and interpolation widen what is seen, m^2. (Cells hardly do: within one,
-  /// the temperatures count by their sigmas, and so those of flat places most.)
-  [[nodiscard]] double blurVariance(const Hotspot& spot) const {
-    const double pixel = spot.best_view.range / camera_.focal_px;
-    return pixel * pixel * (camera_.blur_px * camera_.blur_px + kInterpolation);
+  /// By which optics, pixel and interpolation widen what is seen, radians. (Cells hardly do: within one, the
+  /// temperatures count by their sigmas, and so those of flat places most.)
+  [[nodiscard]] double blurSigma() const {
+    return std::sqrt(camera_.blur_px * camera_.blur_px + kInterpolation) / camera_.focal_px;
   }
 
   void takeFit(const PeakFit& fit, Hotspot& spot) const {
     spot.position.p_world = fit.model.centre;
     spot.position.random = fit.covariance.topLeftCorner<3, 3>();
     spot.reference = {fit.model.reference, std::hypot(std::sqrt(fit.covariance(5, 5)), spot.reference.sigma)};
-    const double seen = fit.model.width * fit.model.width;
-    const double blur = std::min(blurVariance(spot), kMostBlur * seen);
-    spot.reads_low = blurVariance(spot) > kMostBlur * seen;
-    const double rise = fit.model.rise * seen / (seen - blur);
-    spot.width = std::sqrt(seen - blur);
-    spot.peak.value = fit.model.reference + rise;
-    // By ln rise, ln width, reference; the blur's own error enters as that of the width does.
-    Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
-    const double by_width = -2.0 * rise * blur / (seen - blur);
-    gradient[3] = rise;
-    gradient[4] = by_width;
+    spot.width = fit.model.width;
+    const double blur = std::pow(spot.best_view.range * blurSigma(), 2);
+    spot.reads_low = blur > kMostBlur * (blur + spot.width * spot.width);
+    spot.peak.value = fit.model.reference + fit.model.rise;
+    Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();  // by ln rise and reference
+    gradient[3] = fit.model.rise;
     gradient[5] = 1.0;
-    spot.peak.sigma = std::hypot(std::sqrt(gradient.dot(fit.covariance * gradient)), kBlurSigma * by_width);
+    spot.peak.sigma = std::sqrt(gradient.dot(fit.covariance * gradient));
   }
 
   void takeCells(const Candidate& candidate, Hotspot& spot) const {
@@ -285,6 +297,7 @@ class Detection {
 
   const SurfaceLayer& layer_;
   CameraSharpness camera_;
+  std::span<const FramePose> frames_;
   std::vector<HotCluster> clusters_;
   std::vector<bool> hot_;
 };
@@ -304,10 +317,10 @@ CameraSharpness sharpnessOf(const ThermalCamera& camera) {
 }
 
 std::vector<Hotspot> findHotspots(const SurfaceLayer& layer, const HotspotCriteria& criteria,
-                                  const CameraSharpness& camera) {
+                                  const CameraSharpness& camera, std::span<const FramePose> frames) {
   criteria.validate();
   if (layer.samples().empty()) return {};
-  return Detection(layer, criteria, camera).run();
+  return Detection(layer, criteria, camera, frames).run();
 }
 
 }  // namespace thermovox

@@ -27,6 +27,29 @@ SoftResidual soft(double r) {
   return {r * std::sqrt(2.0 / (root + 1.0)), std::sqrt((root + 1.0) / 2.0) / root};
 }
 
+/// A model's temperature at a place through a blur, and its derivatives.
+struct BlurredPeak {
+  double rise;                ///< over the reference, C; also its derivative by ln rise
+  Eigen::Vector3d by_centre;  ///< C / m
+  double by_width;            ///< by ln width, C
+  double by_blur;             ///< by the logarithm of the blur's width, C
+};
+
+/// With o the blur's oblique part, a = width^2 + variance and b = a + o^2 are the eigenvalues of C along the
+/// surface, and C^-1 = (I - o o^T / b) / a (Sherman and Morrison 1950).
+BlurredPeak blurredPeak(const PeakModel& model, const Eigen::Vector3d& p_world, const SurfaceBlur& blur) {
+  const Eigen::Vector3d d = p_world - model.centre;
+  const double w2 = model.width * model.width, o2 = blur.oblique.squaredNorm();
+  const double a = w2 + blur.variance, b = a + o2, ab = a * b;
+  const double d2 = d.squaredNorm(), od = blur.oblique.dot(d), od2 = od * od;
+  const double rise = model.rise * w2 / std::sqrt(ab) * std::exp(-0.5 * (d2 / a - od2 / ab));
+  const double stretched = od2 * (a + b) / (ab * ab);  // of od2 / ab, by a and b together
+  const double by_width = 2.0 - w2 / a - w2 / b + w2 * (d2 / (a * a) - stretched);
+  const double by_blur = -blur.variance / a - (blur.variance + o2) / b +
+                         blur.variance * (d2 / (a * a) - stretched) + od2 / ab - o2 * od2 * a / (ab * ab);
+  return {rise, rise * (d / a - blur.oblique * od / ab), rise * by_width, rise * by_blur};
+}
+
 /// For Eigen's solver: residuals in sigmas, and their derivatives by centre, ln rise, ln width, reference.
 struct PeakProblem {
   std::span<const PeakSample> samples;
@@ -37,11 +60,26 @@ struct PeakProblem {
   [[nodiscard]] int values() const { return static_cast<int>(samples.size()) + kPriors; }
   [[nodiscard]] double sigmaOf(const PeakSample& sample) const { return std::hypot(sample.sigma, scale); }
 
+  /// Of a sample's residual by the model's temperature there.
+  [[nodiscard]] double slopeAt(const PeakSample& sample, double celsius) const {
+    return soft((celsius - sample.celsius) / sigmaOf(sample)).slope / sigmaOf(sample);
+  }
+  /// Of all residuals by the logarithm of the blur's width.
+  [[nodiscard]] Eigen::VectorXd byBlur(const PeakModel& model) const {
+    Eigen::VectorXd derivative(samples.size());
+    Eigen::Index row = 0;
+    for (const PeakSample& sample : samples) {
+      const BlurredPeak peak = blurredPeak(model, sample.p_world, sample.blur);
+      derivative[row++] = slopeAt(sample, model.reference + peak.rise) * peak.by_blur;
+    }
+    return derivative;
+  }
+
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const {
     const PeakModel model = modelOf(x);
     Eigen::Index row = 0;
     for (const PeakSample& sample : samples) {
-      residuals[row++] = soft((model.at(sample.p_world) - sample.celsius) / sigmaOf(sample)).value;
+      residuals[row++] = soft((model.at(sample.p_world, sample.blur) - sample.celsius) / sigmaOf(sample)).value;
     }
     const Eigen::Vector3d moved = x.head<3>() - prior.guess.centre;
     residuals[row++] = prior.normal.dot(moved) / prior.surface_sigma;
@@ -57,14 +95,11 @@ struct PeakProblem {
     jacobian.setZero();
     Eigen::Index row = 0;
     for (const PeakSample& sample : samples) {
-      const Eigen::Vector3d d = sample.p_world - model.centre;
-      const double rise = model.at(sample.p_world) - model.reference;
-      const double sigma = sigmaOf(sample);
-      const double slope = soft((model.reference + rise - sample.celsius) / sigma).slope / sigma;
-      const double w2 = model.width * model.width;
-      jacobian.block<1, 3>(row, 0) = slope * rise / w2 * d.transpose();
-      jacobian(row, 3) = slope * rise;
-      jacobian(row, 4) = slope * rise * d.squaredNorm() / w2;
+      const BlurredPeak peak = blurredPeak(model, sample.p_world, sample.blur);
+      const double slope = slopeAt(sample, model.reference + peak.rise);
+      jacobian.block<1, 3>(row, 0) = slope * peak.by_centre.transpose();
+      jacobian(row, 3) = slope * peak.rise;
+      jacobian(row, 4) = slope * peak.by_width;
       jacobian(row, 5) = slope;
       ++row;
     }
@@ -86,8 +121,8 @@ PeakProblem problemOf(std::span<const PeakSample> samples, const PeakPrior& prio
 
 }  // namespace
 
-double PeakModel::at(const Eigen::Vector3d& p_world) const {
-  return reference + rise * std::exp(-(p_world - centre).squaredNorm() / (2.0 * width * width));
+double PeakModel::at(const Eigen::Vector3d& p_world, const SurfaceBlur& blur) const {
+  return reference + blurredPeak(*this, p_world, blur).rise;
 }
 
 std::optional<PeakFit> fitPeak(std::span<const PeakSample> samples, const PeakPrior& given) {
@@ -124,6 +159,9 @@ std::optional<PeakFit> fitPeak(std::span<const PeakSample> samples, const PeakPr
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> information(known);
   if (information.info() != Eigen::Success || !information.isPositive()) return std::nullopt;
   fit.covariance = information.solve(Eigen::Matrix<double, 6, 6>::Identity());
+  const Vector6d by_blur =
+      information.solve(jacobian.topRows(n).transpose() * problem.byBlur(fit.model)) / scale;
+  fit.covariance += prior.blur_sigma * prior.blur_sigma * by_blur * by_blur.transpose();
   return fit;
 }
 

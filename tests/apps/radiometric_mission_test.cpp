@@ -150,7 +150,9 @@ TEST_F(RadiometricMission, OfSurfacesThatMirrorBehindAWindowIsColouredAsTheyAre)
   std::size_t flat = 0;
   double most_wrong = 0.0;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
-    if (clear[i].colour->sigma > kFlat) continue;
+    // Where something else stood beside it at another distance, the air before the two differs: an edge that
+    // the camera without air need not see.
+    if (clear[i].colour->sigma > kFlat || mirrors[i].colour->sigma > kFlat) continue;
     ++flat;
     // A count is 0.015 C of such a surface.
     EXPECT_NEAR(mirrors[i].colour->celsius, clear[i].colour->celsius, 0.05);

@@ -77,7 +77,7 @@ std::vector<JointTrial> hotspotTrial(const DeclaredErrors& errors, std::uint64_t
   ThermalMap map(ThermalMap::Options{});
   const MissionReport report = mapMission({mission, readings, &frames}, map, {});
   const SurfaceLayer layer(map);
-  std::vector<Hotspot> spots = findHotspots(layer, {}, sharpnessOf(*mission.rig.thermal_camera));
+  std::vector<Hotspot> spots = findHotspots(layer, {}, sharpnessOf(*mission.rig.thermal_camera), report.frame_poses);
   for (Hotspot& spot : spots) {
     spot.position.common =
         sharedCovariance(spot.position.p_world, spot.normal, report.shared_motions, mission.rig,
