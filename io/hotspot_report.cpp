@@ -60,7 +60,7 @@ mounting, range bias and poses as the missions declare them, which more readings
 true place with 95 % (7.815, chi squared with three degrees of freedom), if what is declared is true.</dd>
 <dt>Area, extent, cells</dt><dd>Of the cells that meet the criterion.</dd>
 <dt>Identity and state</dt><dd>Spots of two missions are one where their places and sizes agree within their errors (99.9 %).
-A change counts from 2 &deg;C on, at three sigmas: growing or cooling, else steady. Gone: the place was looked at and is
+A change counts from 2 &deg;C on, at three and a half sigmas: growing or cooling, else steady. Gone: the place was looked at and is
 not hot. Not observed: too little of the place was seen to tell; it may be as hot as before.</dd>
 <dt>Limits</dt><dd>Emissivity and reflections are as the missions assumed them. A shiny or sheltered part may be hotter than it
 looks, and a reflection may look like a hot spot.</dd>

@@ -17,9 +17,8 @@ Rig rigOf(const MissionRecord& mission, const Station& station) {
 
 /// Hot spots of one mission with all that it declares of its errors.
 std::vector<Hotspot> hotspotsOf(const SurfaceLayer& layer, const MissionRecord& mission, const Rig& rig,
-                                const HotspotCriteria& criteria) {
-  const CameraSharpness sharpness = rig.thermal_camera ? sharpnessOf(*rig.thermal_camera) : CameraSharpness{};
-  std::vector<Hotspot> spots = findHotspots(layer, criteria, sharpness, mission.frame_poses);
+                                const CameraSight& camera, const HotspotCriteria& criteria) {
+  std::vector<Hotspot> spots = findHotspots(layer, criteria, camera);
   for (const SharedMotion& motion : mission.shared_motions) {
     if (motion.laser < rig.lasers.size()) continue;
     throw DataError("the mission '" + mission.name + "' has returns of laser " +
@@ -38,7 +37,9 @@ void add(StationHotspots& result, const Station& station, MissionRecord mission,
          const HotspotCriteria& criteria) {
   const SurfaceLayer& layer = *result.layers.emplace_back(std::make_unique<SurfaceLayer>(map));
   const Rig rig = rigOf(mission, station);
-  result.history.add({mission.name, &layer, hotspotsOf(layer, mission, rig, criteria)});
+  CameraSight camera = rig.thermal_camera ? sightOf(*rig.thermal_camera, mission.frame_poses) : CameraSight{};
+  std::vector<Hotspot> spots = hotspotsOf(layer, mission, rig, camera, criteria);
+  result.history.add({mission.name, &layer, std::move(spots), std::move(camera)});
   result.missions.push_back(std::move(mission));
 }
 

@@ -4,7 +4,6 @@
 
 #include "mapping/hotspot.hpp"
 #include "mapping/mission_report.hpp"
-#include "mapping/surface_layer.hpp"
 #include "projection/rig.hpp"
 
 namespace thermovox {
@@ -15,10 +14,5 @@ namespace thermovox {
 /// follows from the spot's normal. Leaves everything as it is when no frame fits.
 void findBestFrame(Hotspot& spot, std::span<const FramePose> frames, const ThermalCamera& camera,
                    double resolution);
-
-/// From the camera to a sample in the sample's best view, metres: by the frame of its time that was as far
-/// away. Without such a frame as far off the surface's normal as the cell remembers, else along the normal.
-[[nodiscard]] Eigen::Vector3d viewOf(const SurfaceSample& sample, const Eigen::Vector3d& normal,
-                                     std::span<const FramePose> frames);
 
 }  // namespace thermovox

@@ -28,7 +28,7 @@ LocalReference referenceOf(std::vector<double>& temperatures, double q) {
   std::transform(temperatures.begin(), temperatures.end(), deviations.begin(),
                  [centre](double t) { return std::abs(t - centre); });
   const double spread = 1.4826 * quantile(deviations, 0.5);
-  return {centre, 1.2533 * spread / std::sqrt(static_cast<double>(temperatures.size()))};
+  return {centre, 1.2533 * spread / std::sqrt(static_cast<double>(temperatures.size())), false};
 }
 
 /// The lowest temperature anywhere near, by cubes as wide as the surroundings: no median is lower.
@@ -172,7 +172,11 @@ std::optional<LocalReference> localReference(const SurfaceLayer& layer,
     all.push_back(layer[j].celsius);
     if (layer.onSameSurface(warmest, j)) on_surface.push_back(layer[j].celsius);
   }
-  if (on_surface.size() >= kFewest) return referenceOf(on_surface, 0.5);
+  if (on_surface.size() >= kFewest) {
+    LocalReference reference = referenceOf(on_surface, 0.5);
+    reference.same_surface = true;
+    return reference;
+  }
   if (all.size() >= kFewest) return referenceOf(all, 0.75);
   return std::nullopt;
 }

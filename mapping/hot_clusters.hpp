@@ -13,6 +13,7 @@ namespace thermovox {
 struct LocalReference {
   double celsius = 0.0;  ///< median of the surroundings
   double sigma = 0.0;    ///< of that median, C: 1.2533 robust standard deviations over the root of the number
+  bool same_surface = false;  ///< whether the surroundings are known to be of the same surface
 };
 
 /// Of a set of samples (ascending): the median of those between `gap` and 0.6 m from the nearest of them, on

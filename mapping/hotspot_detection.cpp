@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "mapping/best_frame.hpp"
 #include "mapping/hot_clusters.hpp"
 #include "mapping/local_plane.hpp"
 #include "mapping/peak_model.hpp"
@@ -16,17 +15,16 @@ namespace thermovox {
 namespace {
 
 constexpr std::size_t kFewestCells = 3;
-constexpr double kSure = 3.0;                 // sigmas
-constexpr double kFewestPixels = 9.0;         // 3 x 3
-constexpr double kGap = 0.15;                 // metres between a spot and its surroundings
-constexpr double kBand = 2.0;                 // cells off its plane that a peak is fitted to
-constexpr double kMostBlur = 0.75;            // of the variance of a peak's shape that blur may make up
-constexpr double kInterpolation = 1.0 / 6.0;  // variance of linear interpolation, px^2
-constexpr double kOblique = 0.42;             // cosine of the angle beyond which views are left out: 65 degrees
-constexpr std::size_t kEnough = 12;           // samples without them
-constexpr double kLeastModelError = 0.01;    // of a peak's rise
-constexpr double kLeastSurfaceSigma = 5e-4;  // metres
-constexpr double kExplained = 0.3;           // of its excess that a piece may differ from a model by
+constexpr double kSure = 3.0;              // sigmas
+constexpr double kFewestPixels = 9.0;      // 3 x 3
+constexpr double kGap = 0.15;              // metres between a spot and its surroundings
+constexpr double kBand = 2.0;              // cells off its plane that a peak is fitted to
+constexpr double kMostBlur = 0.75;         // of the variance of a peak's shape that blur may make up
+constexpr std::size_t kEnough = 12;        // samples without them
+constexpr double kLeastModelError = 0.01;  // of a peak's rise, by which each sample may differ from the model
+constexpr double kShapeError = 0.01;       // of a peak's rise, by which no real one is a Gaussian
+constexpr double kSurfaceError = 1e-3;     // metres: what a surface differs from a quadric by
+constexpr double kExplained = 0.3;         // of its excess that a piece may differ from a model by
 
 /// A cluster on the way to a hot spot.
 struct Candidate {
@@ -43,11 +41,10 @@ struct Candidate {
 /// One mission's layer and what of it is hot.
 class Detection {
  public:
-  Detection(const SurfaceLayer& layer, const HotspotCriteria& criteria, const CameraSharpness& camera,
-            std::span<const FramePose> frames)
+  Detection(const SurfaceLayer& layer, const HotspotCriteria& criteria, const CameraSight& camera)
       : layer_(layer),
+        criteria_(criteria),
         camera_(camera),
-        frames_(frames),
         clusters_(hotClusters(layer, criteria)),
         hot_(layer.samples().size()) {
     for (const HotCluster& cluster : clusters_) {
@@ -65,7 +62,7 @@ class Detection {
       if (!candidate) continue;
       candidate->fit = fitted(*candidate);
       if (candidate->fit && absorb(k, *candidate)) candidate->fit = fitted(*candidate);
-      if (candidate->cells.size() < kFewestCells || !standsOut(*candidate)) continue;
+      if (candidate->cells.size() < kFewestCells || !standsOut(*candidate) || !isHot(*candidate)) continue;
       spots.push_back(hotspotOf(*candidate));
     }
     std::stable_sort(spots.begin(), spots.end(),
@@ -83,7 +80,7 @@ class Detection {
   [[nodiscard]] std::optional<Candidate> candidateOf(const HotCluster& cells) const {
     const std::optional<LocalReference> reference = localReference(layer_, cells, kGap, hot_);
     Candidate candidate{.cells = cells, .hottest = hottestOf(cells)};
-    candidate.reference = reference.value_or(LocalReference{coolestOf(cells), 1.0});
+    candidate.reference = reference.value_or(LocalReference{coolestOf(cells), 1.0, false});
     weigh(candidate);
     return candidate;
   }
@@ -144,18 +141,16 @@ class Detection {
       const double off = candidate.normal.dot(sample.p_world - candidate.centroid);
       const bool own = std::binary_search(candidate.cells.begin(), candidate.cells.end(), i);
       if (!own && (hot_[i] || std::abs(off) > kBand * layer_.resolution())) continue;
-      const Eigen::Vector3d normal = normalAt(i, candidate);
-      const Eigen::Vector3d view = viewOf(sample, normal, frames_);
-      all.push_back({sample.p_world, sample.celsius, sample.sigma, sample.returns,
-                     surfaceBlur(view, normal, blurSigma())});
-      if (normal.isZero() || std::abs(view.normalized().dot(normal)) >= kOblique) facing.push_back(all.back());
+      all.push_back({sample.p_world, sample.celsius, sample.sigma, sample.returns, blurAt(i, candidate)});
+      if (all.back().blur.fromTheFront()) facing.push_back(all.back());
     }
     return facing.size() >= kEnough ? facing : all;
   }
 
-  [[nodiscard]] Eigen::Vector3d normalAt(std::uint32_t i, const Candidate& candidate) const {
+  [[nodiscard]] SurfaceBlur blurAt(std::uint32_t i, const Candidate& candidate) const {
     const Eigen::Vector3f& own = layer_.normal(i);
-    return own.isZero() ? candidate.normal : own.cast<double>();
+    const Eigen::Vector3d normal = own.isZero() ? candidate.normal : own.cast<double>();
+    return blurOf(layer_[i], normal, camera_);
   }
 
   /// The peak lies on the surface, which the samples know better than their temperatures do.
@@ -171,7 +166,7 @@ class Detection {
     }
     if (const auto height = surfaceHeight(near, model.centre, prior.normal, layer_.resolution())) {
       prior.guess.centre += height->height * prior.normal;
-      prior.surface_sigma = std::max(height->sigma, kLeastSurfaceSigma);
+      prior.surface_sigma = std::hypot(height->sigma, kSurfaceError);
     }
   }
 
@@ -195,16 +190,19 @@ class Detection {
     return any;
   }
 
-  [[nodiscard]] SurfaceBlur blurAt(std::uint32_t i, const Candidate& candidate) const {
-    const Eigen::Vector3d normal = normalAt(i, candidate);
-    return surfaceBlur(viewOf(layer_[i], normal, frames_), normal, blurSigma());
-  }
-
   [[nodiscard]] bool standsOut(const Candidate& candidate) const {
     const auto sure = [&](std::uint32_t i) {
       return layer_[i].celsius - candidate.reference.celsius > kSure * layer_[i].sigma;
     };
     return std::any_of(candidate.cells.begin(), candidate.cells.end(), sure);
+  }
+
+  /// By the criteria, now that its own surroundings are known. What nothing of the same surface can be
+  /// compared with has to have the shape of a peak: a warm wall behind something cold is none.
+  [[nodiscard]] bool isHot(const Candidate& candidate) const {
+    if (criteria_.above && candidate.hottest >= *criteria_.above) return true;
+    if (!criteria_.delta || candidate.hottest - candidate.reference.celsius < *criteria_.delta) return false;
+    return candidate.fit || candidate.reference.same_surface;
   }
 
   [[nodiscard]] Hotspot hotspotOf(const Candidate& candidate) const {
@@ -218,7 +216,6 @@ class Detection {
     } else {
       takeCells(candidate, spot);
     }
-    spot.delta = {spot.peak.value - spot.reference.value, std::hypot(spot.peak.sigma, spot.reference.sigma)};
     if (spot.pixels < kFewestPixels) spot.reads_low = true;
     return spot;
   }
@@ -265,24 +262,20 @@ class Detection {
     return static_cast<double>(candidate.cells.size()) * layer_.resolution() * layer_.resolution() / cells;
   }
 
-  /// By which optics, pixel and interpolation widen what is seen, radians. (Cells hardly do: within one, the
-  /// temperatures count by their sigmas, and so those of flat places most.)
-  [[nodiscard]] double blurSigma() const {
-    return std::sqrt(camera_.blur_px * camera_.blur_px + kInterpolation) / camera_.focal_px;
-  }
-
   void takeFit(const PeakFit& fit, Hotspot& spot) const {
     spot.position.p_world = fit.model.centre;
     spot.position.random = fit.covariance.topLeftCorner<3, 3>();
     spot.reference = {fit.model.reference, std::hypot(std::sqrt(fit.covariance(5, 5)), spot.reference.sigma)};
     spot.width = fit.model.width;
-    const double blur = std::pow(spot.best_view.range * blurSigma(), 2);
+    const double blur = std::pow(spot.best_view.range / camera_.focal_px * imageBlur(camera_), 2);
     spot.reads_low = blur > kMostBlur * (blur + spot.width * spot.width);
     spot.peak.value = fit.model.reference + fit.model.rise;
     Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();  // by ln rise and reference
     gradient[3] = fit.model.rise;
     gradient[5] = 1.0;
-    spot.peak.sigma = std::sqrt(gradient.dot(fit.covariance * gradient));
+    const double shape = kShapeError * fit.model.rise;
+    spot.peak.sigma = std::hypot(std::sqrt(gradient.dot(fit.covariance * gradient)), shape);
+    spot.delta = {fit.model.rise, std::hypot(fit.model.rise * std::sqrt(fit.covariance(3, 3)), shape)};
   }
 
   void takeCells(const Candidate& candidate, Hotspot& spot) const {
@@ -292,12 +285,13 @@ class Detection {
     for (const std::uint32_t i : candidate.cells) {
       if (layer_[i].celsius >= candidate.hottest) spot.peak = {layer_[i].celsius, layer_[i].sigma};
     }
+    spot.delta = {spot.peak.value - spot.reference.value, std::hypot(spot.peak.sigma, spot.reference.sigma)};
     spot.reads_low = true;
   }
 
   const SurfaceLayer& layer_;
-  CameraSharpness camera_;
-  std::span<const FramePose> frames_;
+  const HotspotCriteria& criteria_;
+  const CameraSight& camera_;
   std::vector<HotCluster> clusters_;
   std::vector<bool> hot_;
 };
@@ -312,15 +306,11 @@ void HotspotCriteria::validate() const {
     throw ConfigError("delta: expected a difference of more than 0 Celsius");
 }
 
-CameraSharpness sharpnessOf(const ThermalCamera& camera) {
-  return {std::sqrt(camera.camera.fx() * camera.camera.fy()), camera.blur_px, camera.bias_sigma};
-}
-
 std::vector<Hotspot> findHotspots(const SurfaceLayer& layer, const HotspotCriteria& criteria,
-                                  const CameraSharpness& camera, std::span<const FramePose> frames) {
+                                  const CameraSight& camera) {
   criteria.validate();
   if (layer.samples().empty()) return {};
-  return Detection(layer, criteria, camera, frames).run();
+  return Detection(layer, criteria, camera).run();
 }
 
 }  // namespace thermovox

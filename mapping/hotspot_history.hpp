@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mapping/hotspot.hpp"
+#include "mapping/surface_blur.hpp"
 #include "mapping/surface_layer.hpp"
 
 namespace thermovox {
@@ -30,13 +31,15 @@ struct MissionSight {
   std::string mission;
   const SurfaceLayer* layer = nullptr;  ///< its temperatures; must outlive the history
   std::vector<Hotspot> hotspots;        ///< as findHotspots gives them, with their shared errors
+  CameraSight camera = {};              ///< what saw it
 };
 
 /// One hot spot over the missions.
 struct HotspotTrack {
   int id = 0;                                ///< from 1 on, in the order of their first sights
   std::vector<std::optional<Hotspot>> seen;  ///< by mission
-  /// By mission: against the last mission before it that saw the spot; none before the first.
+  /// By mission: against the mean of the missions that saw the spot since its last change, weighted by their
+  /// sigmas; none before the first.
   std::vector<std::optional<HotspotChange>> changes;
 
   /// The last mission that saw it.
@@ -47,9 +50,12 @@ struct HotspotTrack {
 ///
 /// A spot of one mission is that of an earlier one where their places agree: the squared Mahalanobis distance
 /// under both covariances and half the larger width, with a term for the ratio of the widths, is below 16.27
-/// (99.9 % of chi squared with three degrees of freedom), and the sum over all pairs is the least. Where no
-/// spot was found a mission's own temperatures tell whether it is gone: at least half of its cells have to be
-/// seen again, and one near its peak. A change counts from 2 C on, when it is three sigmas.
+/// (99.9 % of chi squared with three degrees of freedom), and the sum over all pairs is the least. A change
+/// counts from 2 C on, when it is three and a half sigmas, and not against a lower value that `reads_low`.
+/// Where no spot was found a mission's own temperatures tell what became of it: at least half of its cells
+/// have to be seen again from the surface's front, and its peak so sharply that half of its rise would be
+/// left; what blur takes off is put back. It is gone when the change counts and less than half is left, and
+/// not observed where these temperatures are not there.
 class HotspotHistory {
  public:
   /// Missions are to come in the order of their flights.
@@ -65,7 +71,10 @@ class HotspotHistory {
   [[nodiscard]] std::vector<Difference> between(std::size_t from, std::size_t to) const;
 
  private:
-  [[nodiscard]] HotspotChange changeOf(const HotspotTrack& track, std::size_t from, std::size_t to) const;
+  [[nodiscard]] std::optional<Estimate> deltaIn(const HotspotTrack& track, std::size_t mission) const;
+  /// With the delta that a spot had `before`.
+  [[nodiscard]] HotspotChange changeOf(const HotspotTrack& track, const std::optional<Estimate>& before,
+                                       std::size_t from, std::size_t to) const;
 
   std::vector<MissionSight> missions_;
   std::vector<HotspotTrack> tracks_;

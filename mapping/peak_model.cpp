@@ -10,8 +10,8 @@ namespace thermovox {
 namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-constexpr int kPriors = 5;       // rows of what is known before
-constexpr double kTrust = 10.0;  // samples that the sigmas' own word stands for against the scatter
+constexpr int kPriors = 5;      // rows of what is known before
+constexpr double kTrust = 5.0;  // samples that the sigmas' own word stands for against the scatter
 
 PeakModel modelOf(const Eigen::VectorXd& x) {
   return {x.head<3>(), std::exp(x[3]), std::exp(x[4]), x[5]};
@@ -79,7 +79,8 @@ struct PeakProblem {
     const PeakModel model = modelOf(x);
     Eigen::Index row = 0;
     for (const PeakSample& sample : samples) {
-      residuals[row++] = soft((model.at(sample.p_world, sample.blur) - sample.celsius) / sigmaOf(sample)).value;
+      residuals[row++] =
+          soft((model.at(sample.p_world, sample.blur) - sample.celsius) / sigmaOf(sample)).value;
     }
     const Eigen::Vector3d moved = x.head<3>() - prior.guess.centre;
     residuals[row++] = prior.normal.dot(moved) / prior.surface_sigma;

@@ -19,8 +19,8 @@ struct PeakSample {
   SurfaceBlur blur = {};      ///< of the view that it was measured in
 };
 
-/// The shape of a small heat source: T(p) = reference + rise exp(-|p - centre|^2 / (2 width^2)). Conduction in
-/// a plate makes peaks that are nearly so.
+/// The shape of a small heat source: T(p) = reference + rise exp(-|p - centre|^2 / (2 width^2)). Conduction
+/// in a plate makes peaks that are nearly so.
 struct PeakModel {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< on the surface, metres
   double rise = 0.0;                                 ///< C

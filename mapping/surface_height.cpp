@@ -36,6 +36,12 @@ std::vector<Column> columnsOf(std::span<const HeightPoint> points, const Eigen::
   return result;
 }
 
+/// Variance of what is estimated with so many degrees of freedom by a scatter (sum of squares) that is itself
+/// estimated: that of Student's t.
+double studentVariance(double squares, double freedom) {
+  return squares / std::max(freedom - 2.0, 1.0);
+}
+
 SurfaceHeight meanHeight(const std::vector<Column>& columns) {
   double sum = 0.0, weights = 0.0, squares = 0.0;
   for (const Column& column : columns) {
@@ -44,8 +50,7 @@ SurfaceHeight meanHeight(const std::vector<Column>& columns) {
   }
   const double mean = sum / weights;
   for (const Column& column : columns) squares += column.returns * std::pow(column.uvh.z() - mean, 2);
-  const double freedom = std::max(static_cast<double>(columns.size()) - 1.0, 1.0);
-  return {mean, std::sqrt(squares / freedom / weights)};
+  return {mean, std::sqrt(studentVariance(squares, static_cast<double>(columns.size()) - 1.0) / weights)};
 }
 
 }  // namespace
@@ -72,7 +77,8 @@ std::optional<SurfaceHeight> surfaceHeight(std::span<const HeightPoint> points, 
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(normal_matrix);
   if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-9)) return meanHeight(columns);
   const Eigen::Matrix<double, 6, 1> coefficients = solver.solve(terms.transpose() * heights);
-  const double scatter = (heights - terms * coefficients).squaredNorm() / static_cast<double>(n - 6);
+  const double scatter =
+      studentVariance((heights - terms * coefficients).squaredNorm(), static_cast<double>(n - 6));
   const double share = solver.solve(Eigen::Matrix<double, 6, 1>::Unit(0))[0];
   return SurfaceHeight{coefficients[0], std::sqrt(scatter * share)};
 }

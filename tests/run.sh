@@ -54,7 +54,7 @@ sanitizers() {
   export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
   # Whole flights measured against the truth or OctoMap say nothing more about memory than the short ones, and
   # take most of the time.
-  run_ctest asan-ubsan --progress --exclude-regex '^(apps\.(Accuracy|HotspotTrials)|mapping\.MissionParity)'
+  run_ctest asan-ubsan --progress --exclude-regex '^(apps\.(Accuracy|HotspotTrials|Halls/TenMissions)|mapping\.MissionParity)'
   say "fuzzing for ${fuzz_seconds} s in all"
   tests/fuzz/run.sh "${fuzz_seconds}"
 }

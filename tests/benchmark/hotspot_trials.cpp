@@ -23,17 +23,23 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSameJoint = 0.3;      // metres
 constexpr double kChi2Of3At95 = 7.815;  // 95 % of chi squared with three degrees of freedom
 
+/// As in a hall a joint may lie near an edge of what it is on, with colder things in the same pixels.
 Hall smallHall(std::uint64_t seed) {
   Random random(seed, RandomStream::hall);
   const double front = random.uniform(3.0, 5.5);
-  const Box cabinet{{-2.6, front, 0.0}, {2.2, front + 1.0, 3.2}, random.uniform(22.0, 31.0)};
+  const double celsius = random.uniform(22.0, 31.0);
   std::vector<HotSpot> joints;
   const double left = random.uniform(-1.6, -0.9);
   for (const double x : {left, left + random.uniform(1.0, 1.3)}) {
     const double rise = random.uniform(22.0, 62.0);
     joints.push_back(
-        {{x, front, random.uniform(1.2, 2.3)}, rise, random.uniform(0.065, 0.125), cabinet.celsius + rise});
+        {{x, front, random.uniform(1.2, 2.3)}, rise, random.uniform(0.065, 0.125), celsius + rise});
   }
+  const double top = std::max(joints[0].position.z(), joints[1].position.z());
+  const Box cabinet{
+      {left - random.uniform(0.1, 0.7), front, 0.0},
+      {joints[1].position.x() + random.uniform(0.1, 0.7), front + 1.0, top + random.uniform(0.1, 0.7)},
+      celsius};
   return {{8.0, 16.0, 5.0}, {cabinet}, {}, std::move(joints)};
 }
 
@@ -77,7 +83,8 @@ std::vector<JointTrial> hotspotTrial(const DeclaredErrors& errors, std::uint64_t
   ThermalMap map(ThermalMap::Options{});
   const MissionReport report = mapMission({mission, readings, &frames}, map, {});
   const SurfaceLayer layer(map);
-  std::vector<Hotspot> spots = findHotspots(layer, {}, sharpnessOf(*mission.rig.thermal_camera), report.frame_poses);
+  std::vector<Hotspot> spots =
+      findHotspots(layer, {}, sightOf(*mission.rig.thermal_camera, report.frame_poses));
   for (Hotspot& spot : spots) {
     spot.position.common =
         sharedCovariance(spot.position.p_world, spot.normal, report.shared_motions, mission.rig,

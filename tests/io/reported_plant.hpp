@@ -24,7 +24,7 @@ class ReportedPlant {
     StationHotspots& found = found_;
     found.layers.push_back(std::make_unique<SurfaceLayer>(own));
     found.history.add({name, found.layers.back().get(),
-                       findHotspots(*found.layers.back(), HotspotCriteria{}, CameraSharpness{})});
+                       findHotspots(*found.layers.back(), HotspotCriteria{}, CameraSight{})});
     const auto flown =
         Time(std::chrono::seconds(1700000000 + 86400 * static_cast<int>(found.missions.size())));
     found.missions.push_back({.name = name,

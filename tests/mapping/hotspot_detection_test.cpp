@@ -21,10 +21,10 @@ using testing::SizeIs;
 
 const Eigen::Vector3d kMiddle(0.76, 0.74, 1.02);
 /// Blur of a camera so sharp that it leaves the peaks as they are.
-constexpr CameraSharpness kSharp{.focal_px = 5000.0, .blur_px = 0.1, .bias_sigma = 2.0};
+constexpr CameraSight kSharp{.focal_px = 5000.0, .blur_px = 0.1, .bias_sigma = 2.0};
 
 std::vector<Hotspot> spotsOf(const ThermalMap& map, const HotspotCriteria& criteria = {},
-                             const CameraSharpness& camera = kSharp) {
+                             const CameraSight& camera = kSharp) {
   return findHotspots(SurfaceLayer(map), criteria, camera);
 }
 
@@ -120,6 +120,19 @@ TEST(FindHotspots, AHotWallBesideAColdFloorIsNone) {
   EXPECT_THAT(spotsOf(mapOf(returns)), IsEmpty());
 }
 
+TEST(FindHotspots, AWarmWallBehindSomethingColdIsNone) {
+  // So little of the wall is left to see that nothing of it can be compared with: its surroundings are cold.
+  std::vector<MappedReturn> returns =
+      returnsOf({.origin = {0, 0, 0.72}}, [](const Eigen::Vector3d&) { return 20.0; });
+  for (const double x : {0.4, 0.41, 0.42, 1.0}) {
+    const PlanePatch strip{.origin = {x, 0.7, 1.02}, .length = 0.02, .width = 0.17};
+    for (const MappedReturn& one : returnsOf(strip, [](const Eigen::Vector3d&) { return 40.0; }))
+      returns.push_back(one);
+  }
+  EXPECT_THAT(spotsOf(mapOf(returns), {.delta = 10.0}), IsEmpty());
+  EXPECT_THAT(spotsOf(mapOf(returns), {.above = 35.0, .delta = {}}), SizeIs(testing::Ge(1)));
+}
+
 TEST(FindHotspots, ASeasonOf15DegreesChangesNoDelta) {
   const std::vector<HotPeak> peaks{{{0.5, 0.5, 1.02}, 30.0, 0.06}, {{1.0, 1.0, 1.02}, 20.0, 0.08}};
   const auto winter = spotsOf(plateWith(peaks, {}, {}, 5.0)),
@@ -135,7 +148,7 @@ TEST(FindHotspots, ASeasonOf15DegreesChangesNoDelta) {
 
 TEST(FindHotspots, PutsBackWhatBlurTakesOffAndSaysWhereItCannot) {
   // A camera of 152 px at 3 m: 0.7 px and interpolation are a Gaussian of b = 16 mm.
-  const CameraSharpness camera{.focal_px = 152.0, .blur_px = 0.7};
+  const CameraSight camera{.focal_px = 152.0, .blur_px = 0.7};
   const double b2 = std::pow(3.0 / 152.0, 2) * (0.49 + 1.0 / 6.0);
   for (const double width : {0.05, 0.08}) {
     const double seen2 = width * width + b2;  // as the camera shows a peak of 40 C
@@ -147,14 +160,14 @@ TEST(FindHotspots, PutsBackWhatBlurTakesOffAndSaysWhereItCannot) {
     EXPECT_FALSE(spots[0].reads_low);
   }
   // From so far away that a pixel is as wide as the joint it reads low.
-  const CameraSharpness coarse{.focal_px = 40.0, .blur_px = 0.7};
+  const CameraSight coarse{.focal_px = 40.0, .blur_px = 0.7};
   const auto spots = spotsOf(plateWith({{kMiddle, 40.0, 0.06}}), {}, coarse);
   ASSERT_THAT(spots, SizeIs(1));
   EXPECT_TRUE(spots[0].reads_low);
 }
 
 TEST(FindHotspots, CountsPixelsOfTheBestView) {
-  const CameraSharpness camera{.focal_px = 152.0};
+  const CameraSight camera{.focal_px = 152.0};
   const auto spots = spotsOf(plateWith({{kMiddle, 40.0, 0.06}}), {}, camera);
   ASSERT_THAT(spots, SizeIs(1));
   EXPECT_NEAR(spots[0].pixels, spots[0].area * 152.0 * 152.0 / 9.0, 1e-6);
@@ -217,7 +230,7 @@ TEST(SharpnessOf, IsWhatTheCameraSays) {
   Intrinsics in{.width_px = 160, .height_px = 120};
   in.parameters[kFx] = 100.0;
   in.parameters[kFy] = 144.0;
-  const CameraSharpness sharpness = sharpnessOf({.camera = Camera(in), .bias_sigma = 5.0, .blur_px = 0.6});
+  const CameraSight sharpness = sightOf({.camera = Camera(in), .bias_sigma = 5.0, .blur_px = 0.6});
   EXPECT_DOUBLE_EQ(sharpness.focal_px, 120.0);
   EXPECT_EQ(sharpness.blur_px, 0.6);
   EXPECT_EQ(sharpness.bias_sigma, 5.0);

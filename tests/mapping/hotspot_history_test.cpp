@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <list>
+#include <utility>
 
 #include "mapping/hotspot_detection.hpp"
 #include "tests/support/hot_surface.hpp"
@@ -109,6 +110,69 @@ TEST_F(Histories, ASpotThatWasMendedIsGoneAndOneThatNobodySawIsNot) {
   fly([](const Eigen::Vector3d&) { return std::nan(""); });
   EXPECT_EQ(state(1, 2), HotspotState::not_observed);
   EXPECT_EQ(state(2, 2), HotspotState::not_observed);
+}
+
+TEST_F(Histories, WhatReadsLowIsABoundFromBelow) {
+  // Spots by hand, of which the second and the fourth mission saw too little.
+  const auto flyWith = [this](double delta, bool reads_low) {
+    fly({{kLeft, 30.0, 0.06}});
+    Hotspot spot = history_.missions().back().hotspots.at(0);
+    spot.delta = {delta, 0.5};
+    spot.reads_low = reads_low;
+    return spot;
+  };
+  HotspotHistory history;
+  for (const auto& [delta, low] : {std::pair{40.0, false}, {20.0, true}, {40.0, false}, {60.0, true}}) {
+    const Hotspot spot = flyWith(delta, low);
+    history.add({"m", &layers_.back(), {spot}});
+  }
+  ASSERT_THAT(history.tracks(), SizeIs(1));
+  const auto& changes = history.tracks()[0].changes;
+  EXPECT_EQ(changes[1]->state, HotspotState::steady);
+  EXPECT_NEAR(changes[1]->change.value, -20.0, 1e-9);
+  EXPECT_EQ(changes[2]->state, HotspotState::steady);
+  EXPECT_NEAR(changes[2]->from->value, 40.0, 1e-9) << "not against what read low";
+  EXPECT_EQ(changes[3]->state, HotspotState::growing);
+  // From a bound nothing grows, to one nothing cools.
+  EXPECT_EQ(history.between(1, 2).at(0).change.state, HotspotState::steady);
+  EXPECT_EQ(history.between(0, 1).at(0).change.state, HotspotState::steady);
+  EXPECT_EQ(history.between(1, 0).at(0).change.state, HotspotState::steady);
+}
+
+TEST_F(Histories, ChangesCountAgainstAllMissionsSinceTheLastOne) {
+  HotspotHistory history;
+  for (const double delta : {40.0, 41.0, 39.0, 40.0, 46.0, 47.0}) {
+    fly({{kLeft, 30.0, 0.06}});
+    Hotspot spot = history_.missions().back().hotspots.at(0);
+    spot.delta = {delta, 1.0};
+    history.add({"m", &layers_.back(), {spot}});
+  }
+  const auto& changes = history.tracks().at(0).changes;
+  EXPECT_NEAR(changes[4]->from->value, 40.0, 1e-9);
+  EXPECT_NEAR(changes[4]->from->sigma, 0.5, 1e-9);  // of four
+  EXPECT_EQ(changes[4]->state, HotspotState::growing);
+  EXPECT_NEAR(changes[5]->from->value, 46.0, 1e-9);
+  EXPECT_EQ(changes[5]->state, HotspotState::steady);
+}
+
+TEST_F(Histories, WhatIsSeenOnlyFromTheSideIsNotGone) {
+  fly({{kLeft, 30.0, 0.06}});
+  // The next mission finds it cool, but by views that are 70 degrees off the surface's normal.
+  std::vector<MappedReturn> returns = test::returnsOf({}, [](const Eigen::Vector3d&) { return 20.0; });
+  for (MappedReturn& one : returns) one.temperature->incidence = 1.22F;
+  const SurfaceLayer& layer = layers_.emplace_back(test::mapOf(returns));
+  history_.add({"from the side", &layer, {}, {.focal_px = 5000.0, .blur_px = 0.1}});
+  EXPECT_EQ(state(1, 1), HotspotState::not_observed);
+  fly(std::vector<HotPeak>{});
+  EXPECT_EQ(state(1, 2), HotspotState::gone);
+}
+
+TEST_F(Histories, WhatIsSeenTooFarAwayForItsSizeIsNotGone) {
+  fly({{kLeft, 30.0, 0.06}});
+  const SurfaceLayer& layer = layers_.emplace_back(
+      test::mapOf(test::returnsOf({}, [](const Eigen::Vector3d&) { return 20.0; }, {.celsius = 0.1})));
+  history_.add({"far", &layer, {}, {.focal_px = 20.0, .blur_px = 0.7}});  // a pixel is 15 cm
+  EXPECT_EQ(state(1, 1), HotspotState::not_observed);
 }
 
 TEST_F(Histories, ASpotThatComesBackKeepsItsId) {

@@ -57,6 +57,60 @@ TEST(PeakModel, IsAGaussianOverItsReference) {
   EXPECT_NEAR(kTruth.at(kTruth.centre + kAcross), 21.0, 1e-9);
 }
 
+const SurfaceBlur kBlurred{.variance = 4e-4, .oblique = 0.03 * kAlong};
+
+TEST(PeakModel, ThroughABlurIsItsConvolution) {
+  // The blur's own Gaussian over the surface, point by point.
+  const double across = std::sqrt(kBlurred.variance), along = std::hypot(across, kBlurred.oblique.norm());
+  for (const Eigen::Vector2d& at :
+       {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(0.05, -0.03), Eigen::Vector2d(0.0, 0.1)}) {
+    const Eigen::Vector3d p = kTruth.centre + at.x() * kAlong + at.y() * kAcross;
+    double sum = 0.0, weights = 0.0;
+    for (double u = -6.0; u <= 6.0; u += 0.1) {
+      for (double v = -6.0; v <= 6.0; v += 0.1) {
+        const double weight = std::exp(-0.5 * (u * u + v * v));
+        sum += weight * kTruth.at(p + u * along * kAlong + v * across * kAcross);
+        weights += weight;
+      }
+    }
+    EXPECT_NEAR(kTruth.at(p, kBlurred), sum / weights, 1e-3);
+  }
+}
+
+TEST(FitPeak, OfSamplesOfManyBlursIsThePeakBeforeThem) {
+  std::vector<PeakSample> samples = samplesOf(kTruth);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    PeakSample& sample = samples[i];
+    const double more = 0.5 * static_cast<double>(i % 5);
+    sample.blur = {more * kBlurred.variance,
+                   more * (i % 2 == 0 ? kBlurred.oblique : Eigen::Vector3d(0.02 * kAcross))};
+    sample.celsius = kTruth.at(sample.p_world, sample.blur);
+  }
+  const auto fit = fitPeak(samples, openPrior());
+  ASSERT_TRUE(fit);
+  EXPECT_LT((fit->model.centre - kTruth.centre).norm(), 1e-5);
+  EXPECT_NEAR(fit->model.rise, kTruth.rise, 1e-3);
+  EXPECT_NEAR(fit->model.width, kTruth.width, 1e-5);
+}
+
+TEST(FitPeak, HasTheErrorOfTheBlurThatAllSamplesShare) {
+  std::vector<PeakSample> samples = samplesOf(kTruth), wider = samples;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].blur = kBlurred;
+    wider[i].blur = {1.21 * kBlurred.variance, 1.1 * kBlurred.oblique};
+    wider[i].celsius = samples[i].celsius = kTruth.at(samples[i].p_world, kBlurred);
+  }
+  PeakPrior prior = openPrior(), unsure = prior;
+  prior.blur_sigma = 0.0;
+  unsure.blur_sigma = 0.1;
+  const auto fit = fitPeak(samples, prior), with_error = fitPeak(samples, unsure),
+             moved = fitPeak(wider, prior);
+  ASSERT_TRUE(fit && with_error && moved);
+  const double by_blur = std::sqrt(with_error->covariance(3, 3) - fit->covariance(3, 3)) * kTruth.rise;
+  EXPECT_NEAR(by_blur, moved->model.rise - fit->model.rise, 0.1 * by_blur);
+  EXPECT_GT(by_blur, 0.5);
+}
+
 TEST(FitPeak, OfExactSamplesIsTheModel) {
   const auto fit = fitPeak(samplesOf(kTruth), openPrior());
   ASSERT_TRUE(fit);
@@ -97,7 +151,7 @@ Eigen::VectorXd residualsOf(const std::vector<PeakSample>& samples, const PeakPr
   Eigen::Index row = 0;
   for (const PeakSample& sample : samples) {
     const double sigma = std::hypot(sample.sigma, prior.model_error * prior.guess.rise);
-    const double e = (model.at(sample.p_world) - sample.celsius) / sigma;
+    const double e = (model.at(sample.p_world, sample.blur) - sample.celsius) / sigma;
     r[row++] = std::copysign(std::sqrt(2.0 * (std::sqrt(1.0 + e * e) - 1.0)), e);
   }
   const Eigen::Vector3d moved = x.head<3>() - prior.guess.centre;
@@ -124,8 +178,13 @@ Eigen::MatrixXd derivativesOf(const std::vector<PeakSample>& samples, const Peak
 TEST(FitPeak, IsALeastSquareWithTheCovarianceOfNumericDerivatives) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     SCOPED_TRACE(seed);
-    const std::vector<PeakSample> samples = samplesOf(kTruth, 0.4, seed);
-    const PeakPrior prior = priorOf(kTruth);
+    std::vector<PeakSample> samples = samplesOf(kTruth, 0.4, seed);
+    for (std::size_t i = 0; i < samples.size(); i += 2) {
+      samples[i].blur = kBlurred;
+      samples[i].celsius += kTruth.at(samples[i].p_world, kBlurred) - kTruth.at(samples[i].p_world);
+    }
+    PeakPrior prior = priorOf(kTruth);
+    prior.blur_sigma = 0.0;
     const auto fit = fitPeak(samples, prior);
     ASSERT_TRUE(fit);
     Eigen::VectorXd x(6);
@@ -139,8 +198,8 @@ TEST(FitPeak, IsALeastSquareWithTheCovarianceOfNumericDerivatives) {
     const auto n = static_cast<Eigen::Index>(samples.size());
     const double chi2 = r.head(n).squaredNorm(), freedom = static_cast<double>(n) - 6.0;
     EXPECT_NEAR(fit->misfit, std::sqrt(chi2 / freedom), 1e-9);
-    // The samples by their scatter, with ten samples' weight on their own sigmas; the prior by its own.
-    const double scale = (chi2 + 10.0) / (freedom + 10.0);
+    // The samples by their scatter, with five samples' weight on their own sigmas; the prior by its own.
+    const double scale = (chi2 + 5.0) / (freedom + 5.0);
     const Eigen::MatrixXd known =
         J.topRows(n).transpose() * J.topRows(n) / scale + J.bottomRows(5).transpose() * J.bottomRows(5);
     const Eigen::MatrixXd covariance = known.inverse();
