@@ -139,6 +139,7 @@ ThermalCamera readThermalCamera(const YamlMap& map) {
   thermal.netd = notNegative(map, "netd", thermal.netd);
   thermal.bias_sigma = notNegative(map, "bias_sigma", thermal.bias_sigma);
   thermal.blur_px = notNegative(map, "blur", thermal.blur_px);
+  thermal.knows_blur = map.has("blur");
   thermal.covariance_intrinsics = readIntrinsicsCovariance(map, thermal.camera);
   if (map.has("covariance_body_camera")) {
     throw fault(map, "covariance_body_camera",

@@ -67,7 +67,7 @@ void writeThermalCamera(std::string& text, const ThermalCamera& thermal) {
   block.pose("T_body_camera", thermal.T_body_camera);
   block.number("netd", thermal.netd);
   block.number("bias_sigma", thermal.bias_sigma);
-  block.number("blur", thermal.blur_px);
+  if (thermal.knows_blur) block.number("blur", thermal.blur_px);
   block.covariance("covariance_intrinsics", thermal.covariance_intrinsics);
 }
 

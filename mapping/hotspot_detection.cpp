@@ -124,6 +124,7 @@ class Detection {
     if (samples.size() < 6 || !(rise > 0.0)) return std::nullopt;
     PeakPrior prior{.guess = {candidate.centroid, rise, width, candidate.reference.celsius},
                     .normal = candidate.normal};
+    prior.blur_sigma = camera_.blur_sigma;
     prior.reference_sigma = std::max(candidate.reference.sigma, 0.5);
     const std::optional<PeakFit> fit = fitPeak(samples, prior);
     if (!fit) return fit;
@@ -197,12 +198,14 @@ class Detection {
     return std::any_of(candidate.cells.begin(), candidate.cells.end(), sure);
   }
 
-  /// By the criteria, now that its own surroundings are known. What nothing of the same surface can be
-  /// compared with has to have the shape of a peak: a warm wall behind something cold is none.
+  /// By the criteria, now that its own surroundings are known. What lies on a surface of which nothing else
+  /// was seen has to have the shape of a peak: a warm wall behind something cold is none.
   [[nodiscard]] bool isHot(const Candidate& candidate) const {
     if (criteria_.above && candidate.hottest >= *criteria_.above) return true;
     if (!criteria_.delta || candidate.hottest - candidate.reference.celsius < *criteria_.delta) return false;
-    return candidate.fit || candidate.reference.same_surface;
+    const bool knows_surface = std::any_of(candidate.cells.begin(), candidate.cells.end(),
+                                           [&](std::uint32_t i) { return !layer_.normal(i).isZero(); });
+    return candidate.fit || candidate.reference.same_surface || !knows_surface;
   }
 
   [[nodiscard]] Hotspot hotspotOf(const Candidate& candidate) const {

@@ -52,7 +52,7 @@ struct PeakPrior {
   double width_sigma = 0.7;      ///< of ln width
   double reference_sigma = 1.0;  ///< C
   double model_error = 0.05;     ///< of the rise: what a real peak differs from the model by, as a sigma
-  double blur_sigma = 0.05;      ///< of the blur's width, as a share: a rig tells it with one or two digits
+  double blur_sigma = 0.05;      ///< of the blur's width, as a share
 };
 
 /// Least squares with a soft L1 loss (Triggs et al., Bundle Adjustment - A Modern Synthesis, 2000) by

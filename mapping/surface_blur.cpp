@@ -9,6 +9,8 @@
 namespace thermovox {
 namespace {
 
+constexpr double kUnknownBlur = 0.5;                               // px
+constexpr double kUnknownBlurSigma = 0.3;                          // as a share
 constexpr double kInterpolation = 1.0 / 6.0;                       // variance of linear interpolation, px^2
 constexpr double kLeastCosine = 0.2;                               // of ray and normal
 constexpr double kFront = 0.42;                                    // likewise
@@ -60,8 +62,16 @@ PixelByP viewWithoutFrame(const SurfaceSample& sample, const Eigen::Vector3d& no
 }  // namespace
 
 CameraSight sightOf(const ThermalCamera& camera, std::vector<FramePose> frames) {
-  return {std::sqrt(camera.camera.fx() * camera.camera.fy()), camera.blur_px, camera.bias_sigma,
-          camera.camera, std::move(frames)};
+  CameraSight sight{.focal_px = std::sqrt(camera.camera.fx() * camera.camera.fy()),
+                    .blur_px = camera.blur_px,
+                    .bias_sigma = camera.bias_sigma,
+                    .lens = camera.camera,
+                    .frames = std::move(frames)};
+  if (!camera.knows_blur) {
+    sight.blur_px = kUnknownBlur;
+    sight.blur_sigma = kUnknownBlurSigma;
+  }
+  return sight;
 }
 
 double imageBlur(const CameraSight& camera) {

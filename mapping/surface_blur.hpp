@@ -15,10 +15,12 @@ namespace thermovox {
 struct CameraSight {
   double focal_px = 152.0;             ///< geometric mean of fx and fy
   double blur_px = 0.7;                ///< optics and pixel, one sigma
+  double blur_sigma = 0.05;            ///< of the blur, as a share: a rig tells it with one or two digits
   double bias_sigma = 0.0;             ///< C, common to all temperatures
   std::optional<Camera> lens = {};     ///< where known: what a pixel covers off the axis
   std::vector<FramePose> frames = {};  ///< where known: places of the camera
 };
+/// A rig that does not know its blur has one between that of a pixel alone (0.29 px) and of a soft lens.
 [[nodiscard]] CameraSight sightOf(const ThermalCamera& camera, std::vector<FramePose> frames = {});
 
 /// Optics, pixel and linear interpolation between pixels, one sigma, px.

@@ -30,6 +30,7 @@ struct ThermalCamera {
   double netd = 0.05;               ///< noise of one pixel, one sigma, C
   double bias_sigma = 0.0;          ///< error common to a frame, one sigma, C (a Duo R is good to 5)
   double blur_px = 0.7;             ///< optics and pixel together, one sigma of a Gaussian, px
+  bool knows_blur = false;          ///< whether the rig says so; otherwise blur_px is a guess
   /// Of fx fy cx cy, then the distortion coefficients the camera was given; empty when the rig does not say.
   Eigen::MatrixXd covariance_intrinsics;
 };

@@ -112,6 +112,7 @@ Rig makeRig(const SimulationOptions& options) {
   thermal.t_linear = TLinear{};
   thermal.netd = options.netd;
   thermal.blur_px = options.blur_px;
+  thermal.knows_blur = true;
   thermal.bias_sigma = options.errors.camera_bias_sigma;
   Rig rig;
   rig.thermal_camera = thermal;

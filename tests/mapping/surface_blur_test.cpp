@@ -138,11 +138,13 @@ TEST_F(BlurOfSample, WithoutFramesGoesByRangeAndIncidence) {
 }
 
 TEST(SightOf, ACameraTakesItsFocalLengthAndBlur) {
-  const ThermalCamera thermal{.camera = lensOf(), .bias_sigma = 2.0, .blur_px = 0.6};
+  ThermalCamera thermal{.camera = lensOf(), .bias_sigma = 2.0, .blur_px = 0.6, .knows_blur = true};
   const CameraSight sight = sightOf(thermal);
   EXPECT_NEAR(sight.focal_px, std::sqrt(152.0 * 150.0), 1e-9);
   EXPECT_EQ(sight.bias_sigma, 2.0);
   EXPECT_NEAR(imageBlur(sight), std::sqrt(0.36 + 1.0 / 6.0), 1e-12);
+  thermal.knows_blur = false;
+  EXPECT_GT(sightOf(thermal).blur_sigma, 5.0 * sight.blur_sigma);
 }
 
 }  // namespace
