@@ -5,6 +5,7 @@
 
 #include "io/rig_file.hpp"
 #include "mapping/best_frame.hpp"
+#include "mapping/intrinsics_error.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -28,7 +29,9 @@ std::vector<Hotspot> hotspotsOf(const SurfaceLayer& layer, const MissionRecord& 
   for (Hotspot& spot : spots) {
     spot.position.common = sharedCovariance(spot.position.p_world, spot.normal, mission.shared_motions, rig,
                                             mission.pose_sigmas);
-    if (rig.thermal_camera) findBestFrame(spot, mission.frame_poses, *rig.thermal_camera, layer.resolution());
+    if (!rig.thermal_camera) continue;
+    findBestFrame(spot, mission.frame_poses, *rig.thermal_camera, layer.resolution());
+    spot.position.common += intrinsicsCovariance(spot, mission.frame_poses, *rig.thermal_camera);
   }
   return spots;
 }

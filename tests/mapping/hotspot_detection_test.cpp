@@ -21,7 +21,7 @@ using testing::SizeIs;
 
 const Eigen::Vector3d kMiddle(0.76, 0.74, 1.02);
 /// Blur of a camera so sharp that it leaves the peaks as they are.
-constexpr CameraSight kSharp{.focal_px = 5000.0, .blur_px = 0.1, .bias_sigma = 2.0};
+const CameraSight kSharp{.focal_px = 5000.0, .blur_px = 0.1, .bias_sigma = 2.0};
 
 std::vector<Hotspot> spotsOf(const ThermalMap& map, const HotspotCriteria& criteria = {},
                              const CameraSight& camera = kSharp) {

@@ -1,0 +1,56 @@
+#include "mapping/intrinsics_error.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace thermovox {
+namespace {
+
+constexpr double kLeastCosine = 0.2;  // of ray and normal, as for the blur
+constexpr double kStep = 1e-6;        // of a parameter, for differences
+
+/// d pixel / d (fx fy cx cy, distortion), by central differences: the constructor takes all that a lens has.
+std::optional<Eigen::MatrixXd> pixelByIntrinsics(const Camera& camera, const Eigen::Vector3d& p_camera,
+                                                 Eigen::Index parameters) {
+  Eigen::MatrixXd derivative(2, parameters);
+  for (Eigen::Index i = 0; i < parameters; ++i) {
+    Intrinsics less = camera.intrinsics(), more = less;
+    double& low = less.parameters.at(static_cast<std::size_t>(i));
+    double& high = more.parameters.at(static_cast<std::size_t>(i));
+    const double step = kStep * std::max(1.0, std::abs(low));
+    low -= step;
+    high += step;
+    const auto from = Camera(less).projectUnbounded(p_camera), to = Camera(more).projectUnbounded(p_camera);
+    if (!from || !to) return std::nullopt;
+    derivative.col(i) = (*to - *from) / (high - low);
+  }
+  return derivative;
+}
+
+}  // namespace
+
+Eigen::Matrix3d intrinsicsCovariance(const Hotspot& spot, std::span<const FramePose> frames,
+                                     const ThermalCamera& camera) {
+  if (camera.covariance_intrinsics.size() == 0 || !spot.best_frame) return Eigen::Matrix3d::Zero();
+  const auto frame = std::find_if(frames.begin(), frames.end(),
+                                  [&](const FramePose& one) { return one.stamp == spot.best_frame->stamp; });
+  if (frame == frames.end()) return Eigen::Matrix3d::Zero();
+  const Pose T_camera_world = frame->T_world_camera.inverse();
+  const Eigen::Vector3d p_camera = T_camera_world * spot.position.p_world;
+  const auto by_intrinsics = pixelByIntrinsics(camera.camera, p_camera, camera.covariance_intrinsics.rows());
+  if (!by_intrinsics) return Eigen::Matrix3d::Zero();
+  const Eigen::Vector3d ray = (T_camera_world.matrix().transpose() * p_camera).normalized();
+  const bool faces = spot.normal.isZero() || std::abs(spot.normal.dot(ray)) < kLeastCosine;
+  const Eigen::Vector3d normal = faces ? ray : spot.normal;
+  Eigen::Matrix<double, 3, 2> surface;
+  surface.col(0) = normal.unitOrthogonal();
+  surface.col(1) = normal.cross(surface.col(0));
+  const Eigen::Matrix2d by_surface = camera.camera.jacobian(p_camera) * T_camera_world.matrix() * surface;
+  const Eigen::MatrixXd moved = surface * by_surface.inverse() * *by_intrinsics;
+  return moved * camera.covariance_intrinsics * moved.transpose();
+}
+
+}  // namespace thermovox
