@@ -147,18 +147,19 @@ TEST_F(RadiometricMission, OfSurfacesThatMirrorBehindAWindowIsColouredAsTheyAre)
       pointsOf("mirrors", {.radiometry = {.emissivity = 1.0, .window_transmission = 1.0}});
   ASSERT_EQ(mirrors.size(), clear.size());
   ASSERT_EQ(black.size(), clear.size());
-  std::size_t flat = 0;
+  constexpr float kSure = 0.05F;
+  std::size_t sure = 0;
   double most_wrong = 0.0;
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
-    // Where something else stood beside it at another distance, the air before the two differs: an edge that
-    // the camera without air need not see.
-    if (clear[i].colour->sigma > kFlat || mirrors[i].colour->sigma > kFlat) continue;
-    ++flat;
+    // Those that say they are sure to 0.05 C. Where something else stands beside a surface at another
+    // distance the air before the two differs: an edge that the camera without air need not see.
+    if (std::max(clear[i].colour->sigma, mirrors[i].colour->sigma) > kSure) continue;
+    ++sure;
     // A count is 0.015 C of such a surface.
-    EXPECT_NEAR(mirrors[i].colour->celsius, clear[i].colour->celsius, 0.05);
+    EXPECT_NEAR(mirrors[i].colour->celsius, clear[i].colour->celsius, kSure);
     most_wrong = std::max<double>(most_wrong, std::abs(black[i].colour->celsius - clear[i].colour->celsius));
   }
-  EXPECT_GT(flat, mirrors.size() / 2);
+  EXPECT_GT(sure, mirrors.size() / 4) << mirrors.size();
   EXPECT_GT(most_wrong, 2.0) << "what their mirroring and the window add, if nobody knew of them";
 }
 
