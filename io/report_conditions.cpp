@@ -15,10 +15,9 @@ namespace {
 std::string cameraText(const ThermalCamera& camera) {
   const Camera& lens = camera.camera;
   return fmt::format(
-      "{} &times; {} px, focal length {:.0f} px; noise {:.3g} &deg;C, bias &pm; {:.3g} &deg;C, blur {:.2g} "
-      "px",
+      "{} &times; {} px, focal length {:.0f} px; noise {:.3g} &deg;C, bias &pm; {:.3g} &deg;C, blur {}",
       lens.width(), lens.height(), std::sqrt(lens.fx() * lens.fy()), camera.netd, camera.bias_sigma,
-      camera.blur_px);
+      camera.knows_blur ? fmt::format("{:.2g} px", camera.blur_px) : "not known");
 }
 
 std::string laserText(const Laser& laser) {
