@@ -28,7 +28,7 @@ LocalReference referenceOf(std::vector<double>& temperatures, double q) {
   std::transform(temperatures.begin(), temperatures.end(), deviations.begin(),
                  [centre](double t) { return std::abs(t - centre); });
   const double spread = 1.4826 * quantile(deviations, 0.5);
-  return {centre, 1.2533 * spread / std::sqrt(static_cast<double>(temperatures.size())), false};
+  return {centre, 1.2533 * spread / std::sqrt(static_cast<double>(temperatures.size()))};
 }
 
 /// The lowest temperature anywhere near, by cubes as wide as the surroundings: no median is lower.

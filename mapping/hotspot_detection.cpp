@@ -20,7 +20,7 @@ constexpr double kFewestPixels = 9.0;      // 3 x 3
 constexpr double kGap = 0.15;              // metres between a spot and its surroundings
 constexpr double kBand = 2.0;              // cells off its plane that a peak is fitted to
 constexpr double kMostBlur = 0.75;         // of the variance of a peak's shape that blur may make up
-constexpr std::size_t kEnough = 12;        // samples without them
+constexpr std::size_t kEnough = 12;        // samples seen from the front, to leave out the others
 constexpr double kLeastModelError = 0.01;  // of a peak's rise, by which each sample may differ from the model
 constexpr double kShapeError = 0.01;       // of a peak's rise, by which no real one is a Gaussian
 constexpr double kSurfaceError = 1e-3;     // metres: what a surface differs from a quadric by
@@ -80,7 +80,7 @@ class Detection {
   [[nodiscard]] std::optional<Candidate> candidateOf(const HotCluster& cells) const {
     const std::optional<LocalReference> reference = localReference(layer_, cells, kGap, hot_);
     Candidate candidate{.cells = cells, .hottest = hottestOf(cells)};
-    candidate.reference = reference.value_or(LocalReference{coolestOf(cells), 1.0, false});
+    candidate.reference = reference.value_or(LocalReference{coolestOf(cells), 1.0});
     weigh(candidate);
     return candidate;
   }

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "mapping/hotspot.hpp"
-#include "mapping/mission_report.hpp"
 #include "mapping/surface_blur.hpp"
 #include "mapping/surface_layer.hpp"
 

@@ -40,15 +40,13 @@ double costOf(const Hotspot& a, const Hotspot& b, double resolution) {
   return apart.dot(covariance.ldlt().solve(apart)) + (both_fitted ? size * size : 0.0);
 }
 
-bool seenFromTheFront(const MissionSight& sight, std::uint32_t i, const Hotspot& spot) {
-  return blurOf((*sight.layer)[i], spot.normal, sight.camera).fromTheFront();
-}
-
 /// Samples within a radius of a place that were seen from the front of the spot's surface.
 std::vector<std::uint32_t> seenNear(const MissionSight& sight, const Eigen::Vector3d& p_world, double radius,
                                     const Hotspot& spot) {
   std::vector<std::uint32_t> near = sight.layer->within(p_world, radius);
-  std::erase_if(near, [&](std::uint32_t i) { return !seenFromTheFront(sight, i, spot); });
+  std::erase_if(near, [&](std::uint32_t i) {
+    return !blurOf((*sight.layer)[i], spot.normal, sight.camera).fromTheFront();
+  });
   return near;
 }
 

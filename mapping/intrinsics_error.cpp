@@ -1,10 +1,11 @@
 #include "mapping/intrinsics_error.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "mapping/plane_basis.hpp"
 
 namespace thermovox {
 namespace {
@@ -45,9 +46,7 @@ Eigen::Matrix3d intrinsicsCovariance(const Hotspot& spot, std::span<const FrameP
   const Eigen::Vector3d ray = (T_camera_world.matrix().transpose() * p_camera).normalized();
   const bool faces = spot.normal.isZero() || std::abs(spot.normal.dot(ray)) < kLeastCosine;
   const Eigen::Vector3d normal = faces ? ray : spot.normal;
-  Eigen::Matrix<double, 3, 2> surface;
-  surface.col(0) = normal.unitOrthogonal();
-  surface.col(1) = normal.cross(surface.col(0));
+  const Eigen::Matrix<double, 3, 2> surface = planeBasis(normal);
   const Eigen::Matrix2d by_surface = camera.camera.jacobian(p_camera) * T_camera_world.matrix() * surface;
   const Eigen::MatrixXd moved = surface * by_surface.inverse() * *by_intrinsics;
   return moved * camera.covariance_intrinsics * moved.transpose();

@@ -1,10 +1,11 @@
 #include "mapping/surface_blur.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "mapping/plane_basis.hpp"
 
 namespace thermovox {
 namespace {
@@ -18,14 +19,6 @@ constexpr Duration kBesideFrame = std::chrono::milliseconds(500);  // that a ret
 constexpr double kRangeSlack = 0.25;                               // metres: what a body moves between frames
 
 using PixelByP = Eigen::Matrix<double, 2, 3>;
-
-/// Two unit vectors across a third.
-Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& unit) {
-  Eigen::Matrix<double, 3, 2> basis;
-  basis.col(0) = unit.unitOrthogonal();
-  basis.col(1) = unit.cross(basis.col(0));
-  return basis;
-}
 
 /// d pixel / d p_world (px / m) of the views that a sample's temperatures may be from: of one temperature the
 /// frame of its time that was as far away as the cell remembers, of several all frames of their time that had
@@ -56,7 +49,7 @@ PixelByP viewWithoutFrame(const SurfaceSample& sample, const Eigen::Vector3d& no
   const double incidence = std::isnan(sample.best_view.incidence) ? 0.0 : sample.best_view.incidence;
   const Eigen::Vector3d n = normal.isZero() ? Eigen::Vector3d::UnitZ() : normal;
   const Eigen::Vector3d ray = std::cos(incidence) * n + std::sin(incidence) * n.unitOrthogonal();
-  return camera.focal_px / range * across(ray).transpose();
+  return camera.focal_px / range * planeBasis(ray).transpose();
 }
 
 }  // namespace
@@ -84,7 +77,7 @@ bool SurfaceBlur::fromTheFront() const {
 
 SurfaceBlur surfaceBlur(std::span<const PixelByP> views, const Eigen::Vector3d& normal, double blur_px) {
   const Eigen::Vector3d ray = views.front().row(0).cross(views.front().row(1)).normalized();
-  const Eigen::Matrix<double, 3, 2> surface = across(normal.isZero() ? ray : normal);
+  const Eigen::Matrix<double, 3, 2> surface = planeBasis(normal.isZero() ? ray : normal);
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();  // px^2 / m^2
   for (const PixelByP& pixel_by_p : views) {
     const Eigen::Matrix2d by_surface = pixel_by_p * surface;

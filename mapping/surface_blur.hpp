@@ -39,8 +39,9 @@ struct SurfaceBlur {
 
 /// Of views in which the image moves by d pixel / d p_world (px / m, 2 x 3; at least one) along a surface
 /// with the unit normal `normal` (sign arbitrary; zero: one that faces the camera). A blur of s px in the
-/// image is one of s^2 (M^T M)^-1 on the surface, with M the derivative along it; of several it is the mean.
-/// Beyond 78 degrees it is taken for 78.
+/// image is one of s^2 (M^T M)^-1 on the surface, with M the derivative along it; of several views it is that
+/// of the mean of M^T M, for temperatures count by their sigmas, which grow with the blur. Beyond 78 degrees
+/// it is taken for 78.
 [[nodiscard]] SurfaceBlur surfaceBlur(std::span<const Eigen::Matrix<double, 2, 3>> views,
                                       const Eigen::Vector3d& normal, double blur_px);
 

@@ -1,11 +1,12 @@
 #include "mapping/surface_height.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
+
+#include "mapping/plane_basis.hpp"
 
 namespace thermovox {
 namespace {
@@ -20,9 +21,8 @@ struct Column {
 
 std::vector<Column> columnsOf(std::span<const HeightPoint> points, const Eigen::Vector3d& origin,
                               const Eigen::Vector3d& normal, double edge) {
-  const Eigen::Vector3d along = normal.unitOrthogonal();
   Eigen::Matrix3d to_plane;
-  to_plane << along.transpose(), normal.cross(along).transpose(), normal.transpose();
+  to_plane << planeBasis(normal).transpose(), normal.transpose();
   std::map<std::pair<int, int>, Column> columns;
   for (const HeightPoint& point : points) {
     const Eigen::Vector3d uvh = to_plane * (point.p_world - origin);
