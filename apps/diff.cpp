@@ -77,7 +77,8 @@ void addDiff(CLI::App& app) {
   CLI::App* verb = app.add_subcommand(
       "diff",
       "What became of the hot spots from one mission to another. Compared is the rise over the surroundings, "
-      "not the temperature: a warmer season changes nothing. A change counts from 2 C on, at three and a half sigmas.");
+      "not the temperature: a warmer season changes nothing. A change counts from 2 C on, at three and a "
+      "half sigmas.");
   verb->add_option("STATION", args->station, "Station (.tvx)")->required();
   verb->add_option("--from", args->from, "Name of the earlier mission")->required();
   verb->add_option("--to", args->to, "Name of the later mission")->required();
