@@ -30,8 +30,10 @@ std::size_t placeOf(const StationHotspots& found, const std::string& name, const
     if (found.missions[i].name == name) return i;
     names = found.missions[i].name + (names.empty() ? "" : ", ") + names;
   }
+  if (names.empty())
+    throw DataError(station.string() + ": has no temperatures, expected those of two missions");
   throw DataError(station.string() + ": has no temperatures of a mission '" + name + "', expected one of " +
-                  (names.empty() ? "none that it has" : names));
+                  names);
 }
 
 std::string celsius(const std::optional<Estimate>& estimate) {

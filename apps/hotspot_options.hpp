@@ -15,6 +15,7 @@ struct HotspotArgs {
   std::optional<double> ambient;
   std::filesystem::path severity;
   std::filesystem::path assets;
+  std::optional<double> assumed_emissivity;
 };
 
 void addHotspotOptions(CLI::App& verb, HotspotArgs& args);

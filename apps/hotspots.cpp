@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/arguments.hpp"
 #include "apps/hotspot_options.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
@@ -41,24 +42,31 @@ void printTable(const std::vector<HotspotRow>& rows, const StationHotspots& foun
     const double error = 1e3 * std::sqrt(spot.position.covariance().trace());
     std::cout << fmt::format(
         "{:4} {:6.1f}{} +-{:4.1f} {:6.1f} {:11.1f} {:8.3f} {:8.3f} {:8.3f} {:7.1f}  {:13} {}{}\n", row.id,
-        spot.peak.value, spot.reads_low ? '<' : ' ', std::hypot(spot.peak.sigma, spot.bias_sigma),
-        spot.delta.value, spot.peak.value - row.ambient, p.x(), p.y(), p.z(), error, nameOf(row.change.state),
-        row.severity, row.asset.empty() ? "" : "  " + row.asset);
+        spot.peak.value, spot.readsLow() ? '<' : ' ', spot.peakSigma(), spot.delta.value,
+        spot.peak.value - row.ambient, p.x(), p.y(), p.z(), error, nameOf(row.change.state), row.severity,
+        row.asset.empty() ? "" : "  " + row.asset);
   }
 }
 
 void runHotspots(HotspotsArgs& args) {
   const Existing existing = args.force ? Existing::replace : Existing::refuse;
-  if (!args.csv.empty()) checkOutput(args.csv, existing);
+  if (!args.csv.empty()) {
+    checkEnding(args.csv, {".csv"});
+    checkOutput(args.csv, existing);
+  }
   const HotspotJudgement judgement = judgementFrom(args.search);
-  const StationHotspots found = stationHotspots(Station::open(args.station), criteriaFrom(args.search));
+  const Station station = Station::open(args.station);
+  const StationHotspots found = stationHotspots(station, criteriaFrom(args.search));
   warnOfMissingLayers(found, args.station);
-  const std::vector<HotspotRow> rows = hotspotRows(found, judgement);
-  if (!args.csv.empty()) writeHotspotsCsv(args.csv, rows, existing);
+  HotspotList list{found, judgement, hotspotRows(found, judgement)};
+  if (!args.csv.empty()) writeHotspotsCsv(args.csv, list.rows, existing);
   if (args.json) {
-    std::cout << hotspotsJson(rows);
+    if (judgement.assets.size() > 0 && !found.missions.empty()) {
+      list.surveys = surveyMission(found, station.loadMap(), judgement, found.missions.size() - 1);
+    }
+    std::cout << hotspotsJson(list);
   } else {
-    printTable(rows, found);
+    printTable(list.rows, found);
   }
 }
 

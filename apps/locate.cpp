@@ -93,6 +93,8 @@ std::optional<Eigen::Vector3d> normalOf(const LocateArgs& args, const std::optio
 
 Question questionOf(const LocateArgs& args) {
   checkRadiometry(args.overrides);
+  if (!(args.range > 0.0 && std::isfinite(args.range)))
+    throw UsageError(fmt::format("--range: found {} m, expected a distance of more than 0 m", args.range));
   if (!std::isfinite(args.above)) throw UsageError("--above: expected a temperature in C");
   Question question{.shot = shotOf(args, readRig(args.rig))};
   if (!args.pose.empty()) question.T_world_body = poseFrom(args.pose, "--pose");

@@ -1,14 +1,19 @@
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "apps/arguments.hpp"
 #include "apps/hotspot_options.hpp"
 #include "apps/verbs.hpp"
 #include "io/hotspot_report.hpp"
+#include "io/mission_folder.hpp"
 #include "io/report_pdf.hpp"
 
 namespace thermovox {
@@ -21,6 +26,7 @@ struct ReportArgs {
   fs::path out;
   HotspotArgs search;
   std::string title;
+  std::vector<fs::path> images;
   bool force = false;
 };
 
@@ -29,6 +35,22 @@ std::int64_t dateOf(const StationHotspots& found) {
   std::int64_t date = 0;
   for (const MissionRecord& mission : found.missions) date = std::max(date, mission.mapped_at);
   return date;
+}
+
+/// Out of the missions' folders; each once.
+SpotImagesById imagesFrom(const std::vector<fs::path>& folders, const StationHotspots& found) {
+  MissionOptions options;
+  options.warn = [](const std::string& warning) { spdlog::warn("{}", warning); };
+  std::set<std::string> names;
+  SpotImagesById images;
+  for (const fs::path& folder : folders) {
+    OpenedMission opened = openMission(folder, options);
+    if (!names.insert(opened.mission.name).second) {
+      throw UsageError("--images: found mission " + opened.mission.name + " twice, expected it once");
+    }
+    images.merge(cutSpotImages(found, opened));
+  }
+  return images;
 }
 
 void runReport(const ReportArgs& args) {
@@ -50,7 +72,8 @@ void runReport(const ReportArgs& args) {
        .criteria = criteria,
        .judgement = std::move(judgement),
        .found = found,
-       .map = map});
+       .map = map,
+       .images = imagesFrom(args.images, found)});
   if (pdf) {
     writePdf(args.out, html, {.browser = browser, .date = dateOf(found)}, existing);
   } else {
@@ -79,6 +102,13 @@ void addReport(CLI::App& app) {
   addHotspotOptions(*verb, args->search);
   verb->add_option("--title", args->title,
                    "Title on the cover (default: \"Hot spots of\" and the station's name)");
+  verb->add_option(
+          "--images", args->images,
+          "Folder of a mission that is in the station; once for each mission. The pages then show each "
+          "hot spot as the cameras saw it: in the thermal frame with the best view and in the visible "
+          "picture nearest to that in time (a station keeps no images)")
+      ->type_name("MISSION")
+      ->allow_extra_args(false);
   verb->add_flag("--force", args->force, "Replace OUT when it is there");
   verb->callback([args] { runReport(*args); });
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "io/report_html.hpp"
 #include "io/report_sections.hpp"
@@ -27,11 +28,15 @@ std::string countOf(const ReportContents& contents, Matches&& matches) {
 /// What the rises are counted from, in the order of the table's classes; then what has none.
 std::vector<std::pair<std::string, std::string>> severityCounts(const ReportContents& contents) {
   std::vector<std::pair<std::string, std::string>> counts;
+  const std::vector<HotspotRow> now = standing(contents.rows);
+  const auto count = [&](const std::string& name) {
+    return groupedText(static_cast<std::size_t>(
+        std::count_if(now.begin(), now.end(), [&](const HotspotRow& row) { return row.severity == name; })));
+  };
   for (const SeverityClass& entry : contents.report.judgement.table.over_ambient) {
-    counts.emplace_back(escaped(entry.name),
-                        countOf(contents, [&](const HotspotRow& row) { return row.severity == entry.name; }));
+    counts.emplace_back(escaped(entry.name), count(entry.name));
   }
-  counts.emplace_back("none", countOf(contents, [](const HotspotRow& row) { return row.severity.empty(); }));
+  counts.emplace_back("none", count(""));
   return counts;
 }
 
@@ -90,6 +95,14 @@ std::string stateText(const HotspotChange& change) {
   return change.alarm ? "<b>" + word + "</b>" : word;
 }
 
+std::vector<HotspotRow> standing(const std::vector<HotspotRow>& rows) {
+  std::vector<HotspotRow> now;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(now), [](const HotspotRow& row) {
+    return row.change.state != HotspotState::gone && row.change.state != HotspotState::not_observed;
+  });
+  return now;
+}
+
 std::string missionNumber(std::size_t mission) {
   return std::to_string(mission + 1);
 }
@@ -100,8 +113,9 @@ std::string countSection(const ReportContents& contents) {
          countText(contents.missions().size(), "mission") + "; " +
          countOf(contents, [](const HotspotRow& row) { return row.change.alarm; }) +
          " new or growing in the last, " +
-         countOf(contents, [](const HotspotRow& row) { return row.spot->reads_low; }) +
-         " that read low.</p>\n<div class=\"columns\"><div class=\"block\"><h3>By severity</h3>\n" +
+         countOf(contents, [](const HotspotRow& row) { return row.spot->readsLow(); }) +
+         " that read low.</p>\n<div class=\"columns\"><div class=\"block\"><h3>By severity, gone and not "
+         "observed ones apart</h3>\n" +
          factTable(severityCounts(contents)) +
          "</div><div class=\"block\"><h3>By state in the last mission</h3>\n" +
          factTable(stateCounts(contents)) + "</div></div>\n";

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/hotspot_table.hpp"
+#include "io/spot_images.hpp"
 #include "mapping/thermal_map.hpp"
 
 namespace thermovox {
@@ -16,6 +17,7 @@ struct HotspotReport {
   HotspotJudgement judgement;
   const StationHotspots& found;
   const ThermalMap& map;  ///< of all missions
+  SpotImagesById images;  ///< may be empty: a station keeps no images
 };
 
 /// The inspection report as one HTML file that needs nothing beside it: cover, map with the hot spots marked,

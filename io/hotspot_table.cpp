@@ -25,10 +25,15 @@ Json orNull(const std::optional<Estimate>& estimate) {
   return estimate ? Json(estimate->value) : Json(nullptr);
 }
 
+/// Cells remember views to 1/100; a single float would show digits that nobody has measured.
+double tenThousandths(float value) {
+  return std::round(1e4 * static_cast<double>(value)) / 1e4;
+}
+
 Json viewJson(const Hotspot& spot) {
   const bool known = !std::isnan(spot.best_view.incidence);
-  return {{"range", spot.best_view.range},
-          {"incidence", known ? Json(spot.best_view.incidence) : Json(nullptr)},
+  return {{"range", tenThousandths(spot.best_view.range)},
+          {"incidence", known ? Json(tenThousandths(spot.best_view.incidence)) : Json(nullptr)},
           {"pixels", spot.pixels},
           {"frame", spot.best_frame ? Json(toUnixSeconds(spot.best_frame->stamp)) : Json(nullptr)},
           {"pixel",
@@ -43,24 +48,28 @@ Json rowJson(const HotspotRow& row) {
           {"covariance_random", jsonOf(spot.position.random)},
           {"covariance_common", jsonOf(spot.position.common)},
           {"peak", spot.peak.value},
-          {"peak_sigma", std::hypot(spot.peak.sigma, spot.bias_sigma)},
+          {"peak_sigma", spot.peakSigma()},
           {"bias_sigma", spot.bias_sigma},
           {"hottest_cell", spot.hottest_cell},
           {"p95", spot.p95},
           {"mean", spot.mean},
           {"reference", spot.reference.value},
           {"delta", spot.delta.value},
-          {"delta_sigma", spot.delta.sigma},
+          {"delta_sigma", spot.deltaSigma()},
           {"ambient", row.ambient},
           {"area", spot.area},
           {"extent", jsonOf(spot.extent)},
           {"voxels", spot.cells.size()},
           {"observations", spot.observations},
-          {"reads_low", spot.reads_low},
+          {"reads_low", spot.readsLow()},
+          {"peak_corrected", orNull(row.corrected_peak)},
+          {"peak_corrected_sigma", row.corrected_peak ? Json(row.corrected_peak->sigma) : Json(nullptr)},
           {"severity", row.severity},
           {"action", row.action},
+          {"severity_similar", row.severity_similar},
           {"asset", row.asset},
           {"state", nameOf(row.change.state)},
+          {"alarm", row.change.alarm},
           {"best_view", viewJson(spot)},
           {"first_seen", toUnixSeconds(row.first_seen)},
           {"last_seen", toUnixSeconds(row.last_seen)},
@@ -121,60 +130,74 @@ std::vector<std::pair<std::string, std::string>> columnsOf(const HotspotRow& row
   return columns;
 }
 
-void fillSights(const HotspotTrack& track, const StationHotspots& found, HotspotRow& row) {
-  row.first_seen = Time::max();
-  row.last_seen = Time::min();
-  for (std::size_t i = 0; i < track.seen.size(); ++i) {
-    if (!track.seen[i]) continue;
-    row.missions.push_back(found.missions[i].name);
-    row.first_seen = std::min(row.first_seen, track.seen[i]->first_seen);
-    row.last_seen = std::max(row.last_seen, track.seen[i]->last_seen);
+/// What each mission made of a hot spot, from its first sight on.
+Json historyJson(const StationHotspots& found, const HotspotRow& row) {
+  const std::vector<HotspotTrack>& tracks = found.history.tracks();
+  const auto track =
+      std::find_if(tracks.begin(), tracks.end(), [&](const HotspotTrack& one) { return one.id == row.id; });
+  Json history = Json::array();
+  for (std::size_t i = 0; i < found.missions.size(); ++i) {
+    const std::optional<HotspotChange>& change = track->changes[i];
+    if (!change) continue;
+    history.push_back({{"mission", found.missions[i].name},
+                       {"state", nameOf(change->state)},
+                       {"delta", orNull(change->to)},
+                       {"delta_sigma", change->to ? Json(change->to->sigma) : Json(nullptr)},
+                       {"alarm", change->alarm}});
   }
+  return history;
+}
+
+Json missionJson(const StationHotspots& found, std::size_t mission, const HotspotJudgement& judgement) {
+  const MissionRecord& record = found.missions[mission];
+  const std::size_t cells = found.layers[mission]->samples().size();
+  return {{"name", record.name},
+          {"first", record.first ? Json(toUnixSeconds(*record.first)) : Json(nullptr)},
+          {"last", record.last ? Json(toUnixSeconds(*record.last)) : Json(nullptr)},
+          {"points", record.points},
+          {"coloured", record.coloured},
+          {"cells", cells},
+          {"ambient", cells > 0 ? Json(ambientOf(found, mission, judgement.ambient)) : Json(nullptr)}};
+}
+
+Json assetJson(const HotspotList& list, std::size_t asset) {
+  const AssetSurvey& survey = list.surveys[asset];
+  const std::size_t last = list.found.missions.size() - 1;
+  Json ids = Json::array();
+  for (const std::size_t spot : survey.hotspots) ids.push_back(idOf(list.found, last, spot));
+  const auto& of = survey.temperatures;
+  const auto& over = survey.over_twins;
+  const SeverityClass* similar =
+      over ? list.judgement.table.classOf(SeverityBasis::over_similar, over->p95) : nullptr;
+  return {{"name", list.judgement.assets[asset].name},
+          {"state", nameOf(survey.state)},
+          {"coverage", survey.coverage()},
+          {"max", of ? Json(of->hottest.value) : Json(nullptr)},
+          {"max_sigma", of ? Json(of->hottest.sigma) : Json(nullptr)},
+          {"p95", of ? Json(of->p95) : Json(nullptr)},
+          {"mean", of ? Json(of->mean) : Json(nullptr)},
+          {"corrected", of && of->corrected},
+          {"over_twins", over ? Json(over->p95) : Json(nullptr)},
+          {"twins", over ? over->twins : 0},
+          {"severity_similar", similar != nullptr ? similar->name : ""},
+          {"over_limit", survey.over_above || survey.over_delta},
+          {"hotspots", ids}};
 }
 
 }  // namespace
 
-double ambientOf(const StationHotspots& found, std::size_t mission, const std::optional<double>& asked) {
-  if (asked) return *asked;
-  if (found.missions[mission].ambient) return *found.missions[mission].ambient;
-  std::vector<float> temperatures;
-  for (const SurfaceSample& sample : found.layers[mission]->samples()) temperatures.push_back(sample.celsius);
-  if (temperatures.empty()) return 0.0;
-  const auto middle = temperatures.begin() + static_cast<std::ptrdiff_t>(temperatures.size() / 2);
-  std::nth_element(temperatures.begin(), middle, temperatures.end());
-  return *middle;
-}
-
-std::vector<HotspotRow> hotspotRows(const StationHotspots& found, const HotspotJudgement& judgement) {
-  std::vector<double> ambients;
-  for (std::size_t i = 0; i < found.missions.size(); ++i) {
-    ambients.push_back(ambientOf(found, i, judgement.ambient));
+std::string hotspotsJson(const HotspotList& list) {
+  Json json{{"hotspots", Json::array()}, {"missions", Json::array()}};
+  for (const HotspotRow& row : list.rows) {
+    json["hotspots"].push_back(rowJson(row));
+    json["hotspots"].back()["history"] = historyJson(list.found, row);
   }
-  std::vector<HotspotRow> rows;
-  for (const HotspotTrack& track : found.history.tracks()) {
-    const std::size_t last = track.lastSeen();
-    HotspotRow row{.id = track.id, .spot = &*track.seen[last], .change = *track.changes.back()};
-    row.ambient = ambients[last];
-    if (const SeverityClass* severity =
-            judgement.table.classOf(SeverityBasis::over_ambient, row.spot->peak.value - row.ambient)) {
-      row.severity = severity->name;
-      row.action = severity->action;
-    }
-    if (const auto asset = judgement.assets.of(*row.spot, found.layers[last]->resolution())) {
-      row.asset = judgement.assets[*asset].name;
-    }
-    fillSights(track, found, row);
-    rows.push_back(std::move(row));
+  for (std::size_t i = 0; i < list.found.missions.size(); ++i) {
+    json["missions"].push_back(missionJson(list.found, i, list.judgement));
   }
-  std::stable_sort(rows.begin(), rows.end(), [](const HotspotRow& a, const HotspotRow& b) {
-    return a.spot->peak.value > b.spot->peak.value;
-  });
-  return rows;
-}
-
-std::string hotspotsJson(const std::vector<HotspotRow>& rows) {
-  Json json{{"hotspots", Json::array()}};
-  for (const HotspotRow& row : rows) json["hotspots"].push_back(rowJson(row));
+  for (std::size_t i = 0; i < list.surveys.size(); ++i) {
+    json["assets"].push_back(assetJson(list, i));
+  }
   return textOf(json);
 }
 

@@ -95,6 +95,16 @@ void stamp(cv::Mat& picture, const cv::Mat& mask, cv::Point corner, const Rgb& c
   }
 }
 
+/// The bytes of a file that ends like this; `what` begins the message where that cannot be.
+std::string encoded(const cv::Mat& picture, const char* ending, const std::string& what) {
+  const std::vector<int> settings{cv::IMWRITE_JPEG_QUALITY, 95, cv::IMWRITE_PNG_COMPRESSION, 6};
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(ending, picture, bytes, settings)) {
+    throw DataError(what + " could not be encoded, expected 8 bits a channel");
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
 std::string tickText(double value, double step) {
   char text[32];
   std::snprintf(text, sizeof text, "%.*f", step < 0.1 ? 2 : step < 1.0 ? 1 : 0, value + 0.0);
@@ -236,24 +246,19 @@ void drawLegend(cv::Mat& picture, cv::Point corner, std::span<const LegendEntry>
 }
 
 std::string pngOf(const cv::Mat& picture) {
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) {
-    throw DataError("a picture could not be encoded, expected 8 bits a channel");
-  }
-  return {bytes.begin(), bytes.end()};
+  return encoded(picture, ".png", "a picture");
+}
+
+std::string jpegOf(const cv::Mat& picture) {
+  return encoded(picture, ".jpg", "a picture");
 }
 
 void writePicture(const std::filesystem::path& path, const cv::Mat& picture, Existing existing) {
   const std::string ending = endingOf(path);
   const bool jpeg = ending == ".jpg" || ending == ".jpeg";
-  const std::vector<int> settings = jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95}
-                                         : std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, 6};
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(jpeg ? ".jpg" : ".png", picture, bytes, settings)) {
-    throw DataError(path.string() + ": the picture could not be encoded, expected 8 bits a channel");
-  }
+  const std::string bytes = encoded(picture, jpeg ? ".jpg" : ".png", path.string() + ": the picture");
   AtomicFile file(path, existing);
-  file.write(std::as_bytes(std::span(bytes)));
+  file.write(bytes);
   file.commit();
 }
 

@@ -55,6 +55,8 @@ void drawLegend(cv::Mat& picture, cv::Point corner, std::span<const LegendEntry>
 
 /// The bytes of a PNG of the picture (8-bit BGR or grey).
 [[nodiscard]] std::string pngOf(const cv::Mat& picture);
+/// The same of a JPEG, for photographs.
+[[nodiscard]] std::string jpegOf(const cv::Mat& picture);
 
 /// Writes a picture (8-bit BGR or grey) as PNG, or as JPEG where the path ends on .jpg or .jpeg; whole or not
 /// at all. Throws DataError naming the file.

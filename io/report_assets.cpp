@@ -15,11 +15,7 @@ Surveys surveysOf(const ReportContents& contents) {
   Surveys surveys;
   const StationHotspots& found = contents.report.found;
   for (std::size_t i = 0; i < contents.missions().size(); ++i) {
-    surveys.push_back(
-        surveyAssets(contents.report.judgement.assets, {.scene = contents.report.map,
-                                                        .layer = *found.layers[i],
-                                                        .hotspots = found.history.missions()[i].hotspots,
-                                                        .assumed = std::nullopt}));
+    surveys.push_back(surveyMission(found, contents.report.map, contents.report.judgement, i));
   }
   return surveys;
 }
@@ -54,15 +50,28 @@ std::string stateOf(const AssetSurvey& survey) {
 /// Links to a mission's hot spots by their ids.
 std::string spotLinks(const ReportContents& contents, const AssetSurvey& survey, std::size_t mission) {
   std::string links;
-  const std::vector<Hotspot>& spots = contents.report.found.history.missions()[mission].hotspots;
   for (const std::size_t k : survey.hotspots) {
-    for (const HotspotTrack& track : contents.report.found.history.tracks()) {
-      const std::optional<Hotspot>& seen = track.seen[mission];
-      if (!seen || seen->position.p_world != spots[k].position.p_world) continue;
-      links += fmt::format("{}<a href=\"#spot-{}\">{}</a>", links.empty() ? "" : ", ", track.id, track.id);
-    }
+    const int id = idOf(contents.report.found, mission, k);
+    links += fmt::format("{}<a href=\"#spot-{}\">{}</a>", links.empty() ? "" : ", ", id, id);
   }
   return links.empty() ? "-" : links;
+}
+
+std::string twinText(const TwinDifference& over, const SeverityTable& table) {
+  std::string text = fmt::format("{:+.1f} of {}", over.p95, over.twins);
+  const SeverityClass* similar = table.classOf(SeverityBasis::over_similar, over.p95);
+  if (similar != nullptr) text += ", " + escaped(similar->name);
+  return text;
+}
+
+/// How the assets' temperatures were corrected.
+std::string emissivityNote(const HotspotJudgement& judgement) {
+  if (!judgement.assumed_emissivity)
+    return "Temperatures are as the map holds them, not corrected for the asset's own emissivity.";
+  return fmt::format(
+      "Assets that give their emissivity have their temperatures corrected for it, from the {:g} that the "
+      "missions took all surfaces for, with surroundings as warm as the air.",
+      *judgement.assumed_emissivity);
 }
 
 std::string limitText(const AssetLimits& limits) {
@@ -86,8 +95,7 @@ std::string surveyTable(const ReportContents& contents, const Surveys& surveys) 
          survey.surface_cells == 0 ? "no surface" : shareText(survey.coloured_cells, survey.surface_cells),
          temperatures ? estimateText(temperatures->hottest) : "-",
          temperatures ? fmt::format("{:.1f}", temperatures->mean) : "-",
-         survey.over_twins ? fmt::format("{:+.1f} of {}", survey.over_twins->p95, survey.over_twins->twins)
-                           : "-",
+         survey.over_twins ? twinText(*survey.over_twins, contents.report.judgement.table) : "-",
          limitText(asset.limits), spotLinks(contents, survey, last), lastInspection(surveys, a)});
   }
   return table.html();
@@ -118,8 +126,9 @@ std::string assetSection(const ReportContents& contents) {
       "<p class=\"note\">Coverage: share of the asset's surface in the map of which the mission has "
       "temperatures; "
       "from half on an asset counts as inspected. Over its twins: 95th percentile of its cells against the "
-      "median of those twins that were inspected, and how many these are. Temperatures are as the map holds "
-      "them, not corrected for the asset's own emissivity. Last inspected: number of the mission.</p>\n";
+      "median of those twins that were inspected, how many these are, and the class of that rise over like "
+      "parts. " +
+      emissivityNote(contents.report.judgement) + " Last inspected: number of the mission.</p>\n";
   text += missingList(contents, surveys[last], AssetState::not_seen, "Assets not inspected: not seen",
                       "The last mission saw something of every asset.");
   return text +

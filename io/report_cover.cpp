@@ -24,24 +24,41 @@ std::string coverageText(const ReportContents& contents) {
       100.0 * contents.report.map.resolution());
 }
 
+/// Spots that earlier missions saw and the last one did not.
+std::string pastText(const std::vector<HotspotRow>& rows) {
+  const auto in = [&](HotspotState state) {
+    return std::count_if(rows.begin(), rows.end(),
+                         [state](const HotspotRow& row) { return row.change.state == state; });
+  };
+  const auto gone = in(HotspotState::gone), unseen = in(HotspotState::not_observed);
+  if (gone + unseen == 0) return "";
+  return fmt::format(
+      "<p>Of earlier missions' hot spots {} gone; {} not observed in the last one and may be as hot as "
+      "before.</p>\n",
+      gone == 1 ? "1 is" : fmt::format("{} are", gone),
+      unseen == 1 ? "1 was" : fmt::format("{} were", unseen));
+}
+
 /// What was found, first of all.
 std::string verdict(const ReportContents& contents) {
   const auto alarms = static_cast<std::size_t>(std::count_if(
       contents.rows.begin(), contents.rows.end(), [](const HotspotRow& row) { return row.change.alarm; }));
+  const std::vector<HotspotRow> now = standing(contents.rows);
   std::string text;
-  if (contents.rows.empty()) {
+  if (now.empty()) {
     text = "<div class=\"verdict\"><p><b>No hot spot was found</b> ";
+    if (!contents.rows.empty()) text += "in the last mission ";
   } else {
-    const HotspotRow& first = contents.rows.front();
+    const HotspotRow& first = now.front();
     text = fmt::format(
         "<div class=\"verdict alarm\"><p><b>{}</b>, the hottest <a href=\"#spot-{}\">number {}</a> of {:.1f} "
         "&deg;C",
-        countText(contents.rows.size(), "hot spot"), first.id, first.id, first.spot->peak.value);
+        countText(now.size(), "hot spot"), first.id, first.id, first.spot->peak.value);
     if (contents.missions().size() > 1) text += fmt::format("; new or growing: <b>{}</b>", alarms);
     text += ", ";
   }
-  text += "by the criterion: " + criteriaText(contents.report.criteria) +
-          ".</p>\n<p>Coverage: " + coverageText(contents) + ".";
+  text += "by the criterion: " + criteriaText(contents.report.criteria) + ".</p>\n" +
+          pastText(contents.rows) + "<p>Coverage: " + coverageText(contents) + ".";
   if (contents.rows.empty()) text += " Of what has no temperature nothing can be said.";
   return text + "</p></div>\n";
 }
@@ -139,8 +156,7 @@ std::string summarySection(const ReportContents& contents) {
     const double largest = ellipsoidOf(spot.position).half_axes.maxCoeff();
     table.row({fmt::format("<a href=\"#spot-{0}\" id=\"row-{0}\">{0}</a>", row.id),
                severityChip(row, contents.report.judgement.table),
-               (spot.reads_low ? "&ge;&nbsp;" : "") +
-                   estimateText({spot.peak.value, std::hypot(spot.peak.sigma, spot.bias_sigma)}),
+               (spot.is_bound ? "&ge;&nbsp;" : "") + estimateText({spot.peak.value, spot.peakSigma()}),
                estimateText(spot.delta), fmt::format("{:.1f}", spot.peak.value - row.ambient),
                vectorText(spot.position.p_world, 3), fmt::format("{:.0f}", std::ceil(1e3 * largest)),
                stateText(row.change), named(row.asset)});

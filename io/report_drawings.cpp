@@ -20,9 +20,13 @@ namespace {
 /// 95 % of chi squared with three degrees of freedom: the shadow of the ellipsoid, not of two of its axes.
 constexpr double kChi95 = 7.815;
 
+std::string image(int width_px, int height_px, const std::string& bytes) {
+  return fmt::format("<image width=\"{}\" height=\"{}\" href=\"{}\"/>\n", width_px, height_px,
+                     pictureUrl(bytes));
+}
+
 std::string image(const ReportPicture& picture) {
-  return fmt::format("<image width=\"{}\" height=\"{}\" href=\"{}\"/>\n", picture.width_px, picture.height_px,
-                     pngUrl(picture.png));
+  return image(picture.width_px, picture.height_px, picture.png);
 }
 
 std::string svg(double width, double height, const std::string& label, const std::string& content) {
@@ -183,6 +187,19 @@ std::string spotDrawing(const SpotPicture& drawn, const Hotspot& spot, const std
       side - 28.0, px + 62.0, 14.0 + px, side - 18.0, 20.0 + px, side - 14.0, 100.0 * length);
   content += scaleBar(drawn.picture.scale, {14.0, side + 8.0, side - 52.0, 11.0}, 14.0);
   return svg(side, side + 42.0, label, content);
+}
+
+std::string cropDrawing(const FrameCrop& crop, const std::string& label) {
+  constexpr double kScaleHeight = 42.0;
+  std::string content = image(crop.width_px, crop.height_px, crop.bytes);
+  for (const auto& [colour, width] : {std::pair{"#fff", 4.0}, std::pair{"#0b4f94", 2.0}}) {
+    content += fmt::format(
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
+        crop.spot_px.x() + 0.5, crop.spot_px.y() + 0.5, kRing, colour, width);
+  }
+  const double width = crop.width_px;
+  if (crop.scale) content += scaleBar(*crop.scale, {14.0, crop.height_px + 8.0, width - 52.0, 11.0}, 14.0);
+  return svg(width, crop.height_px + (crop.scale ? kScaleHeight : 0.0), label, content);
 }
 
 }  // namespace thermovox

@@ -6,6 +6,7 @@
 
 #include "io/map_view.hpp"
 #include "io/report_pictures.hpp"
+#include "io/spot_images.hpp"
 #include "mapping/hotspot.hpp"
 
 namespace thermovox {
@@ -24,5 +25,8 @@ struct MapMark {
 /// SVG of a hot spot's surroundings with its 95 % ellipsoid, a bar of a round length and the scale.
 [[nodiscard]] std::string spotDrawing(const SpotPicture& drawn, const Hotspot& spot,
                                       const std::string& label);
+
+/// SVG of a part of a camera's image with a ring about the spot, and the scale of a thermal one.
+[[nodiscard]] std::string cropDrawing(const FrameCrop& crop, const std::string& label);
 
 }  // namespace thermovox

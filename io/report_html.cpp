@@ -128,9 +128,9 @@ std::string factTable(const std::vector<std::pair<std::string, std::string>>& ht
   return text + "</tbody></table>\n";
 }
 
-std::string pngUrl(std::string_view bytes) {
+std::string pictureUrl(std::string_view bytes) {
   constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text = "data:image/png;base64,";
+  std::string text = bytes.starts_with("\xFF\xD8") ? "data:image/jpeg;base64," : "data:image/png;base64,";
   text.reserve(text.size() + (bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     unsigned group = 0;

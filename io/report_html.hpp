@@ -54,8 +54,8 @@ class HtmlTable {
 /// A table of what is called how: names on the left, values on the right.
 [[nodiscard]] std::string factTable(const std::vector<std::pair<std::string, std::string>>& html);
 
-/// "data:image/png;base64,..."
-[[nodiscard]] std::string pngUrl(std::string_view bytes);
+/// "data:image/png;base64,..." of the bytes of a PNG, "data:image/jpeg;..." of a JPEG's.
+[[nodiscard]] std::string pictureUrl(std::string_view bytes);
 
 /// A whole document with the style of the reports: nothing in it is fetched or run.
 [[nodiscard]] std::string htmlDocument(const std::string& title, const std::string& body);

@@ -44,6 +44,8 @@ struct Ellipsoid {
 [[nodiscard]] std::string stateText(const HotspotChange& change);
 /// "at or above 60.0 &deg;C, or 10.0 &deg;C over the surroundings on the same surface"
 [[nodiscard]] std::string criteriaText(const HotspotCriteria& criteria);
+/// Those that the last mission did not find gone, nor failed to look at.
+[[nodiscard]] std::vector<HotspotRow> standing(const std::vector<HotspotRow>& rows);
 /// Missions count from 1 in a report.
 [[nodiscard]] std::string missionNumber(std::size_t mission);
 

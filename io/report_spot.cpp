@@ -19,7 +19,7 @@ std::string celsius(const Estimate& estimate) {
   return estimateText(estimate) + " &deg;C";
 }
 
-std::string pictureFigure(const ReportContents& contents, const HotspotRow& row) {
+std::string mapFigure(const ReportContents& contents, const HotspotRow& row) {
   const std::size_t mission = contents.trackOf(row).lastSeen();
   const SpotPicture drawn = drawSpot(*row.spot, *contents.report.found.layers[mission]);
   const std::string from = drawn.along_normal ? "along the normal of the surface"
@@ -27,10 +27,29 @@ std::string pictureFigure(const ReportContents& contents, const HotspotRow& row)
   const std::string label = fmt::format("Temperatures around hot spot {}", row.id);
   return "<figure class=\"block spot-picture\">" + spotDrawing(drawn, *row.spot, label) +
          fmt::format(
-             "<figcaption>Rendered from the temperatures of mission {} in the map, seen {}: the station "
-             "keeps no images. Blue: the 95 % ellipsoid of the position. Light grey: no "
-             "temperature.</figcaption></figure>\n",
+             "<figcaption>Rendered from the temperatures of mission {} in the map, seen {}. Blue: the 95 % "
+             "ellipsoid of the position. Light grey: no temperature.</figcaption></figure>\n",
              missionNumber(mission), from);
+}
+
+std::string cropFigure(const FrameCrop& crop, const HotspotRow& row, const std::string& camera) {
+  return "<figure class=\"block\">" +
+         cropDrawing(crop, fmt::format("Hot spot {} in an image of the {} camera", row.id, camera)) +
+         fmt::format(
+             "<figcaption>The {} camera's {}, {}, around pixel ({:.1f}, {:.1f}).</figcaption></figure>\n",
+             camera, named(crop.name), dateText(crop.stamp), crop.pixel.x(), crop.pixel.y());
+}
+
+/// The spot as the cameras and the map have it, side by side; the map alone where there are no images.
+std::string pictureRow(const ReportContents& contents, const HotspotRow& row) {
+  const auto images = contents.report.images.find(row.id);
+  std::string figures;
+  if (images != contents.report.images.end()) {
+    const auto& [thermal, visible] = images->second;
+    if (thermal) figures += cropFigure(*thermal, row, "thermal");
+    if (visible) figures += cropFigure(*visible, row, "visible");
+  }
+  return "<div class=\"pictures\">" + figures + mapFigure(contents, row) + "</div>\n";
 }
 
 std::string positionBlock(const HotspotRow& row) {
@@ -60,25 +79,29 @@ std::string viewText(const Hotspot& spot) {
               : fmt::format(", {:.0f}&deg; off the normal", incidence * 180.0 / std::numbers::pi));
 }
 
-const char* readsLowText(const Hotspot& spot) {
-  return spot.reads_low
-             ? "<b>yes</b>: under 3 &times; 3 pixels, or more blur than can be put back; the true peak "
-               "is higher"
-             : "no";
+std::string readsLowText(const Hotspot& spot) {
+  if (spot.is_bound) {
+    return "<b>yes</b>: under 3 &times; 3 pixels, or more blur than can be put back; the true peak is higher";
+  }
+  return spot.readsLow() ? "<b>yes</b>: too little was seen to put back what blur takes off, to 2 &deg;C"
+                         : "no";
 }
 
 std::string temperatureBlock(const ReportContents& contents, const HotspotRow& row) {
   const Hotspot& spot = *row.spot;
   std::string severity = severityChip(row, contents.report.judgement.table);
   if (!row.action.empty()) severity.append(1, ' ').append(escaped(row.action));
+  const std::string similar = row.severity_similar.empty() ? "none" : escaped(row.severity_similar);
   return "<h3>Temperatures</h3>\n" +
          factTable({{"severity", severity},
-                    {"peak", celsius({spot.peak.value, std::hypot(spot.peak.sigma, spot.bias_sigma)})},
+                    {"peak", celsius({spot.peak.value, spot.peakSigma()})},
+                    {"corrected for its emissivity",
+                     row.corrected_peak ? celsius(*row.corrected_peak) : "not known"},
                     {"the camera's bias in it", fmt::format("&pm; {:.1f} &deg;C", spot.bias_sigma)},
-                    {"over its surroundings", celsius(spot.delta)},
+                    {"over its surroundings", celsius(spot.delta) + " (class: " + similar + ")"},
                     {"surroundings", celsius(spot.reference)},
                     {"over the air", fmt::format("{:.1f} &deg;C (air: {:.1f} &deg;C)",
-                                                 spot.peak.value - row.ambient, row.ambient)},
+                                                 judgedPeak(row) - row.ambient, row.ambient)},
                     {"hottest cell", fmt::format("{:.1f} &deg;C", spot.hottest_cell)},
                     {"95th percentile, mean", fmt::format("{:.1f}, {:.1f} &deg;C", spot.p95, spot.mean)},
                     {"reads low", readsLowText(spot)}});
@@ -86,17 +109,21 @@ std::string temperatureBlock(const ReportContents& contents, const HotspotRow& r
 
 std::string sizeBlock(const HotspotRow& row) {
   const Hotspot& spot = *row.spot;
-  return "<h3>Size and view</h3>\n" +
-         factTable(
-             {{"asset", row.asset.empty() ? "none" : named(row.asset)},
-              {"area", fmt::format("{:.0f} cm&sup2;", 1e4 * spot.area)},
-              {"extent x, y, z", vectorText(100.0 * spot.extent, 0) + " cm"},
-              {"width, one sigma",
-               spot.width > 0.0 ? fmt::format("{:.1f} cm", 100.0 * spot.width) : "not fitted"},
-              {"cells, observations", groupedText(spot.cells.size()) + ", " + groupedText(spot.observations)},
-              {"best view", viewText(spot)},
-              {"first seen", dateText(row.first_seen)},
-              {"last seen", dateText(row.last_seen)}});
+  return "<h3>Size</h3>\n" +
+         factTable({{"asset", row.asset.empty() ? "none" : named(row.asset)},
+                    {"area, cells",
+                     fmt::format("{:.0f} cm&sup2;, {}", 1e4 * spot.area, groupedText(spot.cells.size()))},
+                    {"extent x, y, z", vectorText(100.0 * spot.extent, 0) + " cm"},
+                    {"width, one sigma",
+                     spot.width > 0.0 ? fmt::format("{:.1f} cm", 100.0 * spot.width) : "not fitted"}});
+}
+
+std::string viewBlock(const HotspotRow& row) {
+  const Hotspot& spot = *row.spot;
+  return "<h3>Views</h3>\n" + factTable({{"best view", viewText(spot)},
+                                         {"temperatures", groupedText(spot.observations)},
+                                         {"first seen", dateText(row.first_seen)},
+                                         {"last seen", dateText(row.last_seen)}});
 }
 
 /// Delta of a mission, be it of a hot spot or of the place where one was.
@@ -131,8 +158,7 @@ std::string historyTable(const ReportContents& contents, const HotspotRow& row) 
     const bool compared = change && change->from && change->to;
     table.row(
         {missionNumber(i), named(mission.name), mission.first ? dateText(*mission.first) : "not known",
-         seen ? estimateText({seen->peak.value, std::hypot(seen->peak.sigma, seen->bias_sigma)}) : "-",
-         delta ? estimateText(*delta) : "-",
+         seen ? estimateText({seen->peak.value, seen->peakSigma()}) : "-", delta ? estimateText(*delta) : "-",
          compared ? fmt::format("{:+.1f} &pm; {:.1f}", change->change.value, change->change.sigma) : "-",
          compared ? fmt::format("{:.1f}", change->significance()) : "-",
          change ? stateText(*change) : "before the first sight"});
@@ -162,8 +188,9 @@ std::string spotSection(const ReportContents& contents, const HotspotRow& row) {
   std::string text = fmt::format("<section class=\"spot\" id=\"spot-{0}\">\n<h2>Hot spot {0} {1} {2}", row.id,
                                  severityChip(row, contents.report.judgement.table), stateText(row.change));
   text += fmt::format(" <a class=\"back\" href=\"#row-{}\">back to the list</a></h2>\n", row.id);
-  text += "<div class=\"columns\"><div>" + pictureFigure(contents, row) + sizeBlock(row) + "</div><div>" +
-          positionBlock(row) + temperatureBlock(contents, row) + "</div></div>\n";
+  text += pictureRow(contents, row);
+  text += "<div class=\"columns\"><div>" + positionBlock(row) + viewBlock(row) + "</div><div>" +
+          temperatureBlock(contents, row) + sizeBlock(row) + "</div></div>\n";
   text += "<h3>History</h3>\n";
   if (contents.missions().size() > 1) text += trendFigure(contents, row);
   return text + historyTable(contents, row) + "</section>\n";

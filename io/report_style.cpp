@@ -44,7 +44,9 @@ figcaption { font-size: 8.5pt; color: #4a5058; margin-top: 1mm; }
 .spot h2 { margin-top: 0; display: flex; flex-wrap: wrap; gap: 1mm 3mm; align-items: baseline; }
 @media screen { .spot { border-top: 0.2mm solid #cdd2d8; margin-top: 12mm; padding-top: 8mm; } }
 .columns { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm; align-items: start; }
-@media print { .spot-picture svg { width: 52mm; } .spot h3 { margin-top: 2.5mm; } }
+.pictures { display: grid; grid-template-columns: repeat(3, 1fr); gap: 0 5mm; align-items: start; }
+.pictures figure { margin-bottom: 1mm; }
+@media print { .spot h3 { margin-top: 2.5mm; } }
 .spot h3 { margin-top: 3mm; }
 .columns > * { min-width: 0; }
 .columns h3:first-child { margin-top: 0; }
@@ -62,7 +64,7 @@ dd { margin: 0; break-inside: avoid; }
 ul { margin: 0 0 3mm; padding-left: 5mm; }
 @media screen and (max-width: 700px) {
   body { padding: 4mm; font-size: 11pt; }
-  .columns { display: block; }
+  .columns, .pictures { display: block; }
   table { font-size: 9.4pt; }
   .scroll table { min-width: 100%; width: max-content; }
   .scroll td.l { max-width: 60mm; }

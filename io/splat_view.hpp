@@ -1,11 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "io/palette.hpp"
+#include "io/rgb_picture.hpp"
 #include "projection/pose.hpp"
 
 namespace thermovox {
@@ -17,13 +16,6 @@ struct Splat {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float radius = 0.0F;  ///< metres
   Rgb colour;
-};
-
-/// 8 bits a channel, row by row, r g b.
-struct RgbPicture {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgb;
 };
 
 /// A pinhole looking at the world. Camera frame: x right, y down, z forward.

@@ -27,6 +27,8 @@ std::vector<Hotspot> hotspotsOf(const SurfaceLayer& layer, const MissionRecord& 
                     std::to_string(rig.lasers.size()) + " of its rig");
   }
   for (Hotspot& spot : spots) {
+    // Cells keep their first temperature's time to 2.1 s, rounded down.
+    if (mission.first) spot.first_seen = std::max(spot.first_seen, *mission.first);
     spot.position.common = sharedCovariance(spot.position.p_world, spot.normal, mission.shared_motions, rig,
                                             mission.pose_sigmas);
     if (!rig.thermal_camera) continue;

@@ -22,11 +22,17 @@ VisibleFrames::VisibleFrames(const std::filesystem::path& list, const std::files
       camera_(camera),
       after_(list_.next()) {}
 
-std::optional<VisibleFrame> VisibleFrames::nearest(Time stamp, Duration within) {
+std::optional<StampedFile> VisibleFrames::nearestFile(Time stamp, Duration within) {
   while (after_ && after_->stamp <= stamp) before_ = std::exchange(after_, list_.next());
   const bool later = after_ && (!before_ || between(after_->stamp, stamp) < between(before_->stamp, stamp));
   const std::optional<StampedFile>& chosen = later ? after_ : before_;
   if (!chosen || between(chosen->stamp, stamp) > within) return std::nullopt;
+  return chosen;
+}
+
+std::optional<VisibleFrame> VisibleFrames::nearest(Time stamp, Duration within) {
+  const std::optional<StampedFile> chosen = nearestFile(stamp, within);
+  if (!chosen) return std::nullopt;
   return VisibleFrame{chosen->stamp, readVisiblePicture(chosen->file, chosen->place, camera_)};
 }
 

@@ -25,6 +25,8 @@ class VisibleFrames {
   /// from call to call. Throws DataError for a damaged list, and for a picture that is missing, damaged or of
   /// another size than the camera.
   [[nodiscard]] std::optional<VisibleFrame> nearest(Time stamp, Duration within);
+  /// Which file that is, without reading it.
+  [[nodiscard]] std::optional<StampedFile> nearestFile(Time stamp, Duration within);
 
  private:
   StampedFiles list_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "io/byte_order.hpp"
@@ -91,6 +92,13 @@ VisiblePicture channelOf(const cv::Mat& picture, int channel) {
   return {picture.cols, picture.rows, {luminance.begin<std::uint8_t>(), luminance.end<std::uint8_t>()}};
 }
 
+void checkSize(int width, int height, const std::filesystem::path& file, const Camera& camera) {
+  if (width == camera.width() && height == camera.height()) return;
+  throw DataError(file.string() + ": is " + std::to_string(width) + " x " + std::to_string(height) +
+                  " pixels, expected " + std::to_string(camera.width()) + " x " +
+                  std::to_string(camera.height()) + " as the rig's visible camera");
+}
+
 }  // namespace
 
 VisiblePicture decodeVisiblePicture(std::span<const std::byte> bytes, const std::string& name) {
@@ -111,12 +119,18 @@ VisiblePicture readVisiblePicture(const std::filesystem::path& file, std::string
 VisiblePicture readVisiblePicture(const std::filesystem::path& file, std::string_view named_by,
                                   const Camera& camera) {
   VisiblePicture picture = readVisiblePicture(file, named_by);
-  if (picture.width != camera.width() || picture.height != camera.height()) {
-    throw DataError(file.string() + ": is " + std::to_string(picture.width) + " x " +
-                    std::to_string(picture.height) + " pixels, expected " + std::to_string(camera.width()) +
-                    " x " + std::to_string(camera.height()) + " as the rig's visible camera");
-  }
+  checkSize(picture.width, picture.height, file, camera);
   return picture;
+}
+
+RgbPicture readColourPicture(const std::filesystem::path& file, std::string_view named_by,
+                             const Camera& camera) {
+  const std::string text = readWhole(file, named_by, kLargestFile);
+  cv::Mat picture = decoded(std::as_bytes(std::span(text)), file.string(), cv::IMREAD_COLOR);
+  checkSize(picture.cols, picture.rows, file, camera);
+  cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
+  const auto* first = picture.ptr<std::uint8_t>();  // a decoded picture's rows have no gaps
+  return {picture.cols, picture.rows, {first, first + picture.total() * picture.elemSize()}};
 }
 
 }  // namespace thermovox

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/raw_thermal_image.hpp"
+#include "io/rgb_picture.hpp"
 #include "projection/camera.hpp"
 
 namespace thermovox {
@@ -33,6 +34,10 @@ struct VisiblePicture {
 /// The same, and throws DataError naming the file unless it has the size that the camera has by its rig.
 [[nodiscard]] VisiblePicture readVisiblePicture(const std::filesystem::path& file, std::string_view named_by,
                                                 const Camera& camera);
+
+/// The same in colour, for people to look at.
+[[nodiscard]] RgbPicture readColourPicture(const std::filesystem::path& file, std::string_view named_by,
+                                           const Camera& camera);
 
 /// The picture in a radiometric file. Where it is a PNG, FLIR's cameras write Y, Cr and Cb as if they were
 /// red, green and blue (measured on a B60): its brightness is the first channel.

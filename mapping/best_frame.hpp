@@ -8,10 +8,11 @@
 
 namespace thermovox {
 
-/// Fills in which frame saw a hot spot best, and where in it: that which sees the spot's place from as far as
-/// the cells remember their best view (to the centimetre, and a cell more), of several the nearest to it.
-/// What stood before the spot was asked when the cells took that view. Where the incidence is unknown it
-/// follows from the spot's normal. Leaves everything as it is when no frame fits.
+/// Fills in which frame saw a hot spot best, and where in it its peak is: that which sees the cell with the
+/// best view from as far as this cell remembers (to 10 cm that the body may have moved, and a cell), of
+/// several the nearest to it. Where the peak is outside this frame the pixel is the cell's. What stood before
+/// the spot was asked when the cells took that view. Where the incidence is unknown it follows from the
+/// spot's normal. Leaves everything as it is when no frame fits.
 void findBestFrame(Hotspot& spot, std::span<const FramePose> frames, const ThermalCamera& camera,
                    double resolution);
 

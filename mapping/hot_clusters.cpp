@@ -31,6 +31,22 @@ LocalReference referenceOf(std::vector<double>& temperatures, double q) {
   return {centre, 1.2533 * spread / std::sqrt(static_cast<double>(temperatures.size()))};
 }
 
+/// Samples within a radius of any of these, ascending.
+std::vector<std::uint32_t> within(const SurfaceLayer& layer, const std::vector<std::uint32_t>& samples,
+                                  double radius) {
+  if (samples.size() == 1) return layer.within(layer[samples.front()].p_world, radius);
+  std::vector<bool> is_near(layer.samples().size());
+  std::vector<std::uint32_t> near;
+  for (const std::uint32_t i : samples) {
+    for (const std::uint32_t j : layer.within(layer[i].p_world, radius)) {
+      if (!is_near[j]) near.push_back(j);
+      is_near[j] = true;
+    }
+  }
+  std::sort(near.begin(), near.end());
+  return near;
+}
+
 /// The lowest temperature anywhere near, by cubes as wide as the surroundings: no median is lower.
 class LowestNear {
  public:
@@ -156,19 +172,11 @@ std::optional<LocalReference> localReference(const SurfaceLayer& layer,
   const std::uint32_t warmest = *std::max_element(
       samples.begin(), samples.end(),
       [&](std::uint32_t a, std::uint32_t b) { return layer[a].celsius < layer[b].celsius; });
-  std::vector<std::uint32_t> near;
-  for (const std::uint32_t i : samples) {
-    const std::vector<std::uint32_t> around = layer.within(layer[i].p_world, kSurroundings);
-    near.insert(near.end(), around.begin(), around.end());
-  }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
+  const std::vector<std::uint32_t> near = within(layer, samples, kSurroundings);
   std::vector<double> on_surface, all;
+  const std::vector<std::uint32_t> too_near = within(layer, samples, gap);
   for (const std::uint32_t j : near) {
-    const auto too_near = [&](std::uint32_t i) {
-      return (layer[i].p_world - layer[j].p_world).squaredNorm() < gap * gap;
-    };
-    if (excluded[j] || std::any_of(samples.begin(), samples.end(), too_near)) continue;
+    if (excluded[j] || std::binary_search(too_near.begin(), too_near.end(), j)) continue;
     all.push_back(layer[j].celsius);
     if (layer.onSameSurface(warmest, j)) on_surface.push_back(layer[j].celsius);
   }

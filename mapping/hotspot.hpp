@@ -43,7 +43,8 @@ struct HotspotPosition {
 struct Hotspot {
   HotspotPosition position;
   Estimate peak;              ///< C; what blur and cells take off is put back where the fit allows
-  double bias_sigma = 0.0;    ///< of the camera, C: common to all temperatures, not in the sigmas
+  double bias_sigma = 0.0;    ///< of the camera, C: common to all temperatures, not in the estimates' sigmas
+  double shape_sigma = 0.0;   ///< of peak and delta, C: what a real peak differs from the model by, likewise
   double hottest_cell = 0.0;  ///< C, as the map holds it
   double p95 = 0.0;           ///< C, 95th percentile of the cells
   double mean = 0.0;          ///< C, of the cells
@@ -55,12 +56,21 @@ struct Hotspot {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the surface, sign arbitrary; zero: unknown
   std::vector<CellKey> cells;
   std::uint64_t observations = 0;
-  SurfaceCell::View best_view{};  ///< of its cells: the one with the most pixels
-  double pixels = 0.0;            ///< of the best view, on the spot's cells
+  SurfaceCell::View best_view{};                        ///< of its cells: the one with the most pixels
+  Eigen::Vector3d best_seen = Eigen::Vector3d::Zero();  ///< p_world of the cell with this view, metres
+  double pixels = 0.0;                                  ///< of the best view, on the spot's cells
   std::optional<SeenInFrame> best_frame;
-  bool reads_low = false;  ///< under 3 x 3 pixels, or wider blur than can be put back
+  bool is_bound = false;  ///< the peak may be higher: under 3 x 3 pixels, or wider blur than can be put back
   Time first_seen;
   Time last_seen;
+
+  /// Of the peak, with all that is not in its own sigma, C.
+  [[nodiscard]] double peakSigma() const;
+  /// Of the delta likewise, C: the camera's bias cancels.
+  [[nodiscard]] double deltaSigma() const;
+  /// Whether cells read low here and what was put back is not known to 2 C (two sigmas, the camera's bias
+  /// apart), or is a bound.
+  [[nodiscard]] bool readsLow() const;
 };
 
 }  // namespace thermovox

@@ -17,8 +17,8 @@ namespace thermovox {
 /// the more the further away, and the further off the surface's normal, the camera was: each sample is
 /// compared with the model as its own view blurs it, so that the model is the peak itself. Views that
 /// are not from the surface's front are left out where enough others are there. Where the fit fails the
-/// position is the mean of the cells weighted by their excess, the peak that of the hottest cell, and the
-/// spot `reads_low`. Clusters of fewer than three cells, and those that stand out by less than three sigmas,
+/// position is the mean of the cells weighted by their excess, the peak that of the hottest cell, and a
+/// bound. Clusters of fewer than three cells, and those that stand out by less than three sigmas,
 /// are no hot spots. Errors that all measurements share are not in the result: see sharedCovariance.
 [[nodiscard]] std::vector<Hotspot> findHotspots(const SurfaceLayer& layer, const HotspotCriteria& criteria,
                                                 const CameraSight& camera);

@@ -51,11 +51,13 @@ struct HotspotTrack {
 /// A spot of one mission is that of an earlier one where their places agree: the squared Mahalanobis distance
 /// under both covariances and half the larger width, with a term for the ratio of the widths, is below 16.27
 /// (99.9 % of chi squared with three degrees of freedom), and the sum over all pairs is the least. A change
-/// counts from 2 C on, when it is three and a half sigmas, and not against a lower value that `reads_low`.
+/// counts from 2 C on, when it is three and a half sigmas, and not against a lower value that is a bound.
 /// Where no spot was found a mission's own temperatures tell what became of it: at least half of its cells
-/// have to be seen again from the surface's front, and its peak so sharply that half of its rise would be
-/// left; what blur takes off is put back. It is gone when the change counts and less than half is left, and
-/// not observed where these temperatures are not there.
+/// have to be seen again from the surface's front, and its peak so near and so sharply that half of a rise
+/// would be left; the rise is that of a peak of its shape. It is gone when the change counts and less than
+/// half is left, and not observed where these temperatures are not there. What was gone and is found again is
+/// new, as is a spot at its first sight: an alarm where the change from what was there counts, or nobody had
+/// looked.
 class HotspotHistory {
  public:
   /// Missions are to come in the order of their flights.
@@ -71,10 +73,8 @@ class HotspotHistory {
   [[nodiscard]] std::vector<Difference> between(std::size_t from, std::size_t to) const;
 
  private:
+  void begin(const Hotspot& spot);
   [[nodiscard]] std::optional<Estimate> deltaIn(const HotspotTrack& track, std::size_t mission) const;
-  /// With the delta that a spot had `before`.
-  [[nodiscard]] HotspotChange changeOf(const HotspotTrack& track, const std::optional<Estimate>& before,
-                                       std::size_t from, std::size_t to) const;
 
   std::vector<MissionSight> missions_;
   std::vector<HotspotTrack> tracks_;

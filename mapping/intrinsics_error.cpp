@@ -31,18 +31,17 @@ std::optional<Eigen::MatrixXd> pixelByIntrinsics(const Camera& camera, const Eig
   return derivative;
 }
 
-}  // namespace
+bool sees(const FramePose& frame, const Eigen::Vector3d& p_world, const Camera& camera) {
+  return camera.project(frame.T_world_camera.inverse() * p_world).has_value();
+}
 
-Eigen::Matrix3d intrinsicsCovariance(const Hotspot& spot, std::span<const FramePose> frames,
-                                     const ThermalCamera& camera) {
-  if (camera.covariance_intrinsics.size() == 0 || !spot.best_frame) return Eigen::Matrix3d::Zero();
-  const auto frame = std::find_if(frames.begin(), frames.end(),
-                                  [&](const FramePose& one) { return one.stamp == spot.best_frame->stamp; });
-  if (frame == frames.end()) return Eigen::Matrix3d::Zero();
-  const Pose T_camera_world = frame->T_world_camera.inverse();
+/// For a spot seen in one frame; none where the lens has no place for it.
+std::optional<Eigen::Matrix3d> covarianceIn(const FramePose& frame, const Hotspot& spot,
+                                            const ThermalCamera& camera) {
+  const Pose T_camera_world = frame.T_world_camera.inverse();
   const Eigen::Vector3d p_camera = T_camera_world * spot.position.p_world;
   const auto by_intrinsics = pixelByIntrinsics(camera.camera, p_camera, camera.covariance_intrinsics.rows());
-  if (!by_intrinsics) return Eigen::Matrix3d::Zero();
+  if (!by_intrinsics) return std::nullopt;
   const Eigen::Vector3d ray = (T_camera_world.matrix().transpose() * p_camera).normalized();
   const bool faces = spot.normal.isZero() || std::abs(spot.normal.dot(ray)) < kLeastCosine;
   const Eigen::Vector3d normal = faces ? ray : spot.normal;
@@ -50,6 +49,22 @@ Eigen::Matrix3d intrinsicsCovariance(const Hotspot& spot, std::span<const FrameP
   const Eigen::Matrix2d by_surface = camera.camera.jacobian(p_camera) * T_camera_world.matrix() * surface;
   const Eigen::MatrixXd moved = surface * by_surface.inverse() * *by_intrinsics;
   return moved * camera.covariance_intrinsics * moved.transpose();
+}
+
+}  // namespace
+
+Eigen::Matrix3d intrinsicsCovariance(const Hotspot& spot, std::span<const FramePose> frames,
+                                     const ThermalCamera& camera) {
+  Eigen::Matrix3d widest = Eigen::Matrix3d::Zero();
+  if (camera.covariance_intrinsics.size() == 0) return widest;
+  for (const FramePose& frame : frames) {
+    const bool is_it = spot.best_frame ? frame.stamp == spot.best_frame->stamp
+                                       : sees(frame, spot.position.p_world, camera.camera);
+    if (!is_it) continue;
+    const auto covariance = covarianceIn(frame, spot, camera);
+    if (covariance && covariance->trace() > widest.trace()) widest = *covariance;
+  }
+  return widest;
 }
 
 }  // namespace thermovox

@@ -24,7 +24,10 @@ struct LocalPlane {
   double width2 = 0.0;  ///< variance of the points along the plane's shorter axis, m^2
 };
 
-/// Points make a plane where its thickness is less than 0.35 of its shorter width. Precondition: count > 0.
-[[nodiscard]] LocalPlane localPlane(const PointSums& sums);
+/// Thickness of a plane against its shorter width; and of what faces a side at all, as a pipe seen from one.
+inline constexpr double kPlaneThickness = 0.35, kBulgeThickness = 0.7;
+
+/// Points make a plane where it is not thicker than this. Precondition: count > 0.
+[[nodiscard]] LocalPlane localPlane(const PointSums& sums, double thickness = kPlaneThickness);
 
 }  // namespace thermovox

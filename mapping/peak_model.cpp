@@ -1,17 +1,27 @@
 #include "mapping/peak_model.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <unsupported/Eigen/NonLinearOptimization>
+
+#include "mapping/plane_basis.hpp"
 
 namespace thermovox {
 namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-constexpr int kPriors = 5;      // rows of what is known before
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+constexpr int kPriors = 5;  // rows of what is known before
+constexpr Eigen::Index kSectors = 6;
+constexpr double kByChance = 0.5;  // by which the widest of twelve scores of independent errors are too wide
+constexpr double kSmallSample = 2.0 * kSectors / (2.0 * kSectors - 1.0);  // of few scores
 constexpr double kTrust = 5.0;  // samples that the sigmas' own word stands for against the scatter
+
+using Scores = Eigen::Matrix<double, 6, 2 * kSectors>;
 
 PeakModel modelOf(const Eigen::VectorXd& x) {
   return {x.head<3>(), std::exp(x[3]), std::exp(x[4]), x[5]};
@@ -113,11 +123,40 @@ struct PeakProblem {
   }
 };
 
+/// Of all samples in a sector about the centre, near or far, the sum of their gradients J^T r, one column
+/// each.
+Scores scoresOf(const PeakProblem& problem, const PeakModel& model, const Eigen::MatrixXd& jacobian,
+                const Eigen::VectorXd& residuals) {
+  Scores scores = Scores::Zero();
+  Eigen::Index row = 0;
+  for (const PeakSample& sample : problem.samples) {
+    const Eigen::Vector3d d = sample.p_world - model.centre;
+    const double turn =
+        std::atan2(problem.across.dot(d), problem.along.dot(d)) / (2.0 * std::numbers::pi) + 0.5;
+    const auto sector = std::min(static_cast<Eigen::Index>(turn * kSectors), kSectors - 1);
+    const Eigen::Index ring = d.norm() < 1.2 * model.width ? 0 : kSectors;
+    scores.col(sector + ring) += residuals[row] * jacobian.row(row).transpose();
+    ++row;
+  }
+  return scores;
+}
+
+/// Errors that neighbours share - the edge of something nearer, another shape than the model's - do not
+/// average out as those of single samples do. Their covariance is that of the sectors' scores S (the sandwich
+/// of Liang and Zeger 1986), C S S^T C with C that of independent errors; where it is wider than that by more
+/// than chance makes it, it counts.
+Matrix6d widened(const Matrix6d& independent, const Scores& scores) {
+  const Eigen::LLT<Matrix6d> root(independent);
+  const Eigen::Matrix<double, 6, 2 * kSectors> whitened = root.matrixL().transpose() * scores;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(kSmallSample * whitened * whitened.transpose());
+  const Matrix6d back = root.matrixL() * axes.eigenvectors();
+  return back * (axes.eigenvalues().array() - kByChance).cwiseMax(1.0).matrix().asDiagonal() *
+         back.transpose();
+}
+
 PeakProblem problemOf(std::span<const PeakSample> samples, const PeakPrior& prior) {
-  const bool is_plane = !prior.normal.isZero();
-  const Eigen::Vector3d n = is_plane ? prior.normal : Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d along = n.unitOrthogonal();
-  return {samples, prior, along, n.cross(along), prior.model_error * prior.guess.rise};
+  const Eigen::Matrix<double, 3, 2> plane = planeBasis(prior.normal);
+  return {samples, prior, plane.col(0), plane.col(1), prior.model_error * prior.guess.rise};
 }
 
 }  // namespace
@@ -137,8 +176,10 @@ std::optional<PeakFit> fitPeak(std::span<const PeakSample> samples, const PeakPr
   x << prior.guess.centre, std::log(prior.guess.rise), std::log(prior.guess.width), prior.guess.reference;
   Eigen::LevenbergMarquardt<PeakProblem> solver(problem);
   const auto status = solver.minimize(x);
-  if (status <= 0 || !x.allFinite()) return std::nullopt;
-  PeakFit fit{modelOf(x), {}, 0.0};
+  if (status <= 0 || status == Eigen::LevenbergMarquardtSpace::TooManyFunctionEvaluation || !x.allFinite()) {
+    return std::nullopt;
+  }
+  PeakFit fit{modelOf(x), {}, {}, 0.0};
   const double growth = fit.model.width / prior.guess.width;
   if ((fit.model.centre - prior.guess.centre).norm() > 4.0 * prior.guess.width || !(growth > 1.0 / 3.0) ||
       !(growth < 3.0)) {
@@ -159,10 +200,13 @@ std::optional<PeakFit> fitPeak(std::span<const PeakSample> samples, const PeakPr
   known += jacobian.bottomRows(kPriors).transpose() * jacobian.bottomRows(kPriors);
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> information(known);
   if (information.info() != Eigen::Success || !information.isPositive()) return std::nullopt;
-  fit.covariance = information.solve(Eigen::Matrix<double, 6, 6>::Identity());
+  fit.independent = information.solve(Matrix6d::Identity());
+  fit.covariance = widened(fit.independent, scoresOf(problem, fit.model, jacobian, residuals) / scale);
   const Vector6d by_blur =
       information.solve(jacobian.topRows(n).transpose() * problem.byBlur(fit.model)) / scale;
-  fit.covariance += prior.blur_sigma * prior.blur_sigma * by_blur * by_blur.transpose();
+  const Matrix6d blur = prior.blur_sigma * prior.blur_sigma * by_blur * by_blur.transpose();
+  fit.independent += blur;
+  fit.covariance += blur;
   return fit;
 }
 

@@ -40,6 +40,8 @@ struct PeakFit {
   /// model, and for the error of the blur, which all of them share: their sigmas also hold what blur takes
   /// off a slope, the same on all sides of a peak, which the model's width and rise take up.
   Eigen::Matrix<double, 6, 6> covariance;
+  /// What it would be if the samples' errors were independent: errors that neighbours share make it wider.
+  Eigen::Matrix<double, 6, 6> independent;
   double misfit = 0.0;  ///< robust root mean square of the samples about the model, in their sigmas
 };
 

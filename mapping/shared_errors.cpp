@@ -164,7 +164,7 @@ Eigen::Matrix3d sharedCovariance(const Eigen::Vector3d& p_world, const Eigen::Ve
                                  const PoseSigmas& pose) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::vector<SharedMotion> here = motionsAt(p_world, motions);
-  if (here.empty()) return covariance;
+  if (here.empty()) return pose.translation * pose.translation * Eigen::Matrix3d::Identity();
   double total = 0.0;
   for (SharedMotion& motion : here) {
     motion = carried(motion, (p_world - motion.centre()).cast<float>());

@@ -73,8 +73,8 @@ struct PoseSigmas {
 };
 
 /// Covariance (world, m^2) of a hot spot at p_world that the shared errors cause. `motions` as means() gives
-/// them; the nearest cube within two metres speaks for places that no return was counted for, and zero comes
-/// out where there is none.
+/// them; the nearest cube within two metres speaks for places that no return was counted for; where there is
+/// none only the poses' translation is left.
 ///
 /// An error of the pose moves laser and camera together, and the spot with them. One of the laser alone moves
 /// the surface by e, but not the camera's ray along which the spot was seen: the spot stays where this ray

@@ -1,6 +1,7 @@
 #include "mapping/surface_height.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,6 +12,9 @@
 namespace thermovox {
 namespace {
 
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+constexpr double kSure = 3.0;            // sigmas
 constexpr std::size_t kForQuadric = 12;  // columns, twice its coefficients
 
 /// Returns over one place: their mean along the plane and off it, and how many.
@@ -42,7 +46,7 @@ double studentVariance(double squares, double freedom) {
   return squares / std::max(freedom - 2.0, 1.0);
 }
 
-SurfaceHeight meanHeight(const std::vector<Column>& columns) {
+SurfaceHeight meanHeight(const std::vector<Column>& columns, const Eigen::Vector3d& normal) {
   double sum = 0.0, weights = 0.0, squares = 0.0;
   for (const Column& column : columns) {
     sum += column.returns * column.uvh.z();
@@ -50,7 +54,18 @@ SurfaceHeight meanHeight(const std::vector<Column>& columns) {
   }
   const double mean = sum / weights;
   for (const Column& column : columns) squares += column.returns * std::pow(column.uvh.z() - mean, 2);
-  return {mean, std::sqrt(studentVariance(squares, static_cast<double>(columns.size()) - 1.0) / weights)};
+  return {mean, std::sqrt(studentVariance(squares, static_cast<double>(columns.size()) - 1.0) / weights),
+          normal, 0.0};
+}
+
+/// The larger one of a quadric; 0 where the noise of its coefficients may have made it.
+double curvatureOf(const Vector6d& coefficients, const Matrix6d& covariance) {
+  Eigen::Matrix2d bend;  // second derivatives
+  bend << 2.0 * coefficients[3], coefficients[4], coefficients[4], 2.0 * coefficients[5];
+  const double curvature =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bend).eigenvalues().cwiseAbs().maxCoeff();
+  const double variance = 4.0 * std::max(covariance(3, 3), covariance(5, 5));
+  return curvature > kSure * std::sqrt(variance) ? curvature : 0.0;
 }
 
 }  // namespace
@@ -59,7 +74,7 @@ std::optional<SurfaceHeight> surfaceHeight(std::span<const HeightPoint> points, 
                                            const Eigen::Vector3d& normal, double edge) {
   if (points.empty()) return std::nullopt;
   const std::vector<Column> columns = columnsOf(points, origin, normal, edge);
-  if (columns.size() < kForQuadric) return meanHeight(columns);
+  if (columns.size() < kForQuadric) return meanHeight(columns, normal);
   double scale = 1e-9;
   for (const Column& column : columns) scale = std::max(scale, column.uvh.head<2>().norm());
   const auto n = static_cast<Eigen::Index>(columns.size());
@@ -73,14 +88,17 @@ std::optional<SurfaceHeight> surfaceHeight(std::span<const HeightPoint> points, 
     terms.row(i) *= root;
     heights[i] = root * column.uvh.z();
   }
-  const Eigen::Matrix<double, 6, 6> normal_matrix = terms.transpose() * terms;
+  const Matrix6d normal_matrix = terms.transpose() * terms;
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(normal_matrix);
-  if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-9)) return meanHeight(columns);
-  const Eigen::Matrix<double, 6, 1> coefficients = solver.solve(terms.transpose() * heights);
+  if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-9)) return meanHeight(columns, normal);
+  const Vector6d coefficients = solver.solve(terms.transpose() * heights);
   const double scatter =
       studentVariance((heights - terms * coefficients).squaredNorm(), static_cast<double>(n - 6));
   const double share = solver.solve(Eigen::Matrix<double, 6, 1>::Unit(0))[0];
-  return SurfaceHeight{coefficients[0], std::sqrt(scatter * share)};
+  const Eigen::Vector3d slope = planeBasis(normal) * coefficients.segment<2>(1) / scale;
+  return SurfaceHeight{
+      coefficients[0], std::sqrt(scatter * share), (normal - slope).normalized(),
+      curvatureOf(coefficients, scatter * solver.solve(Matrix6d::Identity())) / (scale * scale)};
 }
 
 }  // namespace thermovox

@@ -15,8 +15,10 @@ struct HeightPoint {
 
 /// How far a surface lies off a plane, at one place.
 struct SurfaceHeight {
-  double height = 0.0;  ///< along the plane's normal, metres
-  double sigma = 0.0;   ///< of it, from the points' scatter
+  double height = 0.0;                               ///< along the plane's normal, metres
+  double sigma = 0.0;                                ///< of it, from the points' scatter
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the surface there, unit, to the plane's side
+  double curvature = 0.0;                            ///< the larger one, 1/m; 0 where noise may have made it
 };
 
 /// Height of the surface through `points` over `origin` (world, metres) along the unit normal: the constant

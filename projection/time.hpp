@@ -29,8 +29,10 @@ using Time = SensorClock::time_point;
   return std::chrono::duration<double>(duration).count();
 }
 /// Unix seconds as a double: exact to about a quarter of a microsecond, for outputs that have no better type.
+/// Whole seconds apart: the nanoseconds together have more digits than a double.
 [[nodiscard]] constexpr double toUnixSeconds(Time time) {
-  return toSeconds(time.time_since_epoch());
+  const auto whole = std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch());
+  return static_cast<double>(whole.count()) + toSeconds(time.time_since_epoch() - whole);
 }
 
 /// Reads decimal seconds ("1700000000.199999809", "32.9", "1.7e9") to the nanosecond without passing through

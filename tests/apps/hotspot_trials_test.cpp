@@ -13,7 +13,7 @@ constexpr std::size_t kRuns = 30;
 // degrees of freedom, each divided by three, lies outside 0.55 to 1.6 once in two hundred times; bars that
 // are twice too wide or too narrow make it 0.25 or 4.
 TEST(HotspotTrials, WithAllErrorsDrawnTheBarsHoldTheTruth) {
-  const TrialSummary summary = summaryOf(hotspotTrials(errorSets().back().errors, 1, kRuns));
+  const TrialSummary summary = summaryOf(hotspotTrials(errorSets().back(), 1, kRuns));
   EXPECT_GE(summary.found, summary.joints - 1);
   EXPECT_GE(summary.position_coverage, 25.0 / 30.0);
   EXPECT_GE(summary.position_nees, 0.55);
@@ -24,7 +24,7 @@ TEST(HotspotTrials, WithAllErrorsDrawnTheBarsHoldTheTruth) {
 }
 
 TEST(HotspotTrials, WithNoiseAloneJointsAreFoundWithinMillimetres) {
-  const TrialSummary summary = summaryOf(hotspotTrials({}, 1, 10));
+  const TrialSummary summary = summaryOf(hotspotTrials(errorSets().front(), 1, 10));
   EXPECT_EQ(summary.found, summary.joints);
   EXPECT_GE(summary.position_coverage, 0.85);
   EXPECT_LE(summary.mean_distance, 0.005);

@@ -22,14 +22,25 @@ struct JointTrial {
   Eigen::Vector3d error = Eigen::Vector3d::Zero();  ///< world, metres
 };
 
-/// A cabinet 3 to 5.5 m beside a one-second flight with two hot joints on its face, drawn by the seed, seen
-/// by a turning laser and the camera of the simulated rig.
-[[nodiscard]] std::vector<JointTrial> hotspotTrial(const simulate::DeclaredErrors& errors,
-                                                   std::uint64_t seed);
+/// What two hot joints are on, 3 to 5.5 m beside a one-second flight.
+enum class TrialScene {
+  cabinet,  ///< the flat face of one
+  pipes,    ///< two upright ones, 9 to 17 cm in radius, up to 35 degrees around from their front
+};
+
+/// The errors that a mission declares in a scene, by name.
+struct ErrorSet {
+  std::string name;
+  simulate::DeclaredErrors errors;
+  TrialScene scene = TrialScene::cabinet;
+};
+
+/// One flight past a scene drawn by the seed, seen by a turning laser and the camera of the simulated rig.
+[[nodiscard]] std::vector<JointTrial> hotspotTrial(const ErrorSet& set, std::uint64_t seed);
 
 /// Trials with the seeds from `first` on, on all processors.
-[[nodiscard]] std::vector<JointTrial> hotspotTrials(const simulate::DeclaredErrors& errors,
-                                                    std::uint64_t first, std::size_t count);
+[[nodiscard]] std::vector<JointTrial> hotspotTrials(const ErrorSet& set, std::uint64_t first,
+                                                    std::size_t count);
 
 /// What the trials say of the error bars.
 struct TrialSummary {
@@ -44,12 +55,7 @@ struct TrialSummary {
 };
 [[nodiscard]] TrialSummary summaryOf(const std::vector<JointTrial>& trials);
 
-/// Errors that a mission may declare, by name.
-struct ErrorSet {
-  std::string name;
-  simulate::DeclaredErrors errors;
-};
-/// Noise alone; pose; extrinsics and range bias; camera bias; all of them.
+/// Noise alone; pose; extrinsics and range bias; camera bias; noise alone on pipes; all of them.
 [[nodiscard]] std::vector<ErrorSet> errorSets();
 
 }  // namespace thermovox::bench

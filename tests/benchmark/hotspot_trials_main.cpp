@@ -18,8 +18,8 @@ int main(int argc, char** argv) {
       "peak within 1.96 sigmas | NEES of the peak | mean error of the peak |\n"
       "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   for (const ErrorSet& set : errorSets()) {
-    const TrialSummary s = summaryOf(
-        hotspotTrials(set.errors, static_cast<std::uint64_t>(first), static_cast<std::size_t>(runs)));
+    const TrialSummary s =
+        summaryOf(hotspotTrials(set, static_cast<std::uint64_t>(first), static_cast<std::size_t>(runs)));
     std::printf("| %s | %zu of %zu | %.1f %% | %.2f | %.1f mm | %.1f %% | %.2f | %.2f C |\n",
                 set.name.c_str(), s.found, s.joints, 100 * s.position_coverage, s.position_nees,
                 1000 * s.mean_distance, 100 * s.peak_coverage, s.peak_nees, s.mean_peak_error);

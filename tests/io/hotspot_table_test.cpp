@@ -37,7 +37,7 @@ class HotspotTable : public testing::Test {
     found_ = stationHotspots(station, {});
   }
   [[nodiscard]] Json json(const HotspotJudgement& judgement = {}) const {
-    return Json::parse(hotspotsJson(hotspotRows(found_, judgement)));
+    return Json::parse(hotspotsJson({found_, judgement, hotspotRows(found_, judgement)}));
   }
   /// The fields of a table, by line; quotes taken off as RFC 4180 says.
   [[nodiscard]] std::vector<std::vector<std::string>> csv(const std::vector<HotspotRow>& rows) const {
@@ -109,16 +109,48 @@ TEST_F(HotspotTable, NamesTheAssetThatASpotBelongsTo) {
   EXPECT_EQ(rows[1].asset, "");
 }
 
+TEST_F(HotspotTable, CorrectsThePeakForTheEmissivityOfItsAsset) {
+  Asset bare{.name = "busbar"};
+  bare.T_world_box.translation = {0.45, 0.75, 1.0};
+  bare.size = {0.3, 0.3, 0.3};
+  bare.emissivity = 0.3;
+  HotspotJudgement judgement{.ambient = 20.0, .assets = Assets({bare})};
+  EXPECT_FALSE(hotspotRows(found_, judgement)[1].corrected_peak) << "nobody says what was assumed";
+  judgement.assumed_emissivity = 0.95;
+  const std::vector<HotspotRow> rows = hotspotRows(found_, judgement);
+  EXPECT_FALSE(rows[0].corrected_peak) << "it lies on no asset";
+  const HotspotRow& left = rows[1];
+  ASSERT_TRUE(left.corrected_peak);
+  const Estimate measured{left.spot->peak.value, left.spot->peakSigma()};
+  const auto expected = withEmissivity(measured, {.emissivity = 0.95, .reflected = 20.0}, 0.3);
+  EXPECT_EQ(left.corrected_peak->value, expected->value);
+  EXPECT_EQ(left.corrected_peak->sigma, expected->sigma);
+  EXPECT_GT(left.corrected_peak->value, left.spot->peak.value + 30.0);
+  EXPECT_EQ(left.severity, "major") << "of the corrected peak";
+  const Json spot = Json::parse(hotspotsJson({found_, judgement, rows}))["hotspots"][1];
+  EXPECT_EQ(spot["peak"], left.spot->peak.value) << "as measured";
+  EXPECT_EQ(spot["peak_corrected"], expected->value);
+}
+
+TEST_F(HotspotTable, ClassifiesTheRiseOverTheSurroundingsToo) {
+  HotspotJudgement judgement;
+  judgement.table.over_similar = {{35.0, "small", ""}, {1e9, "large", ""}};
+  const std::vector<HotspotRow> rows = hotspotRows(found_, judgement);
+  EXPECT_EQ(rows[0].severity_similar, "large");
+  EXPECT_EQ(rows[1].severity_similar, "small");
+}
+
 TEST_F(HotspotTable, JsonHasTheKeysOfTheReadme) {
   const Json spots = json()["hotspots"];
   ASSERT_THAT(spots, SizeIs(2));
   const Json& spot = spots[0];
-  EXPECT_THAT(keysOf(spot),
-              ElementsAre("id", "position", "covariance", "covariance_random", "covariance_common", "peak",
-                          "peak_sigma", "bias_sigma", "hottest_cell", "p95", "mean", "reference", "delta",
-                          "delta_sigma", "ambient", "area", "extent", "voxels", "observations", "reads_low",
-                          "severity", "action", "asset", "state", "best_view", "first_seen", "last_seen",
-                          "missions"));
+  EXPECT_THAT(
+      keysOf(spot),
+      ElementsAre("id", "position", "covariance", "covariance_random", "covariance_common", "peak",
+                  "peak_sigma", "bias_sigma", "hottest_cell", "p95", "mean", "reference", "delta",
+                  "delta_sigma", "ambient", "area", "extent", "voxels", "observations", "reads_low",
+                  "peak_corrected", "peak_corrected_sigma", "severity", "action", "severity_similar", "asset",
+                  "state", "alarm", "best_view", "first_seen", "last_seen", "missions", "history"));
   EXPECT_THAT(keysOf(spot["best_view"]), ElementsAre("range", "incidence", "pixels", "frame", "pixel"));
   EXPECT_EQ(spot["id"], 2);
   EXPECT_THAT(spot["position"], SizeIs(3));
@@ -132,15 +164,54 @@ TEST_F(HotspotTable, JsonHasTheKeysOfTheReadme) {
   EXPECT_TRUE(spot["best_view"]["frame"].is_null());
   // The peak's sigma is the total, the bias of 2 C in it; that of delta is not.
   const Hotspot& hottest = *hotspotRows(found_, {})[0].spot;
-  EXPECT_DOUBLE_EQ(spot["peak_sigma"].get<double>(), std::hypot(hottest.peak.sigma, 2.0));
-  EXPECT_DOUBLE_EQ(spot["delta_sigma"].get<double>(), hottest.delta.sigma);
+  EXPECT_DOUBLE_EQ(spot["peak_sigma"].get<double>(),
+                   std::hypot(hottest.peak.sigma, 2.0, hottest.shape_sigma));
+  EXPECT_DOUBLE_EQ(spot["delta_sigma"].get<double>(), std::hypot(hottest.delta.sigma, hottest.shape_sigma));
   EXPECT_NEAR(spot["peak"].get<double>() - spot["reference"].get<double>(), spot["delta"].get<double>(),
               1e-9);
   EXPECT_GT(spot["first_seen"].get<double>(), 86'400.0);
 }
 
+TEST_F(HotspotTable, JsonTellsTheHistoryAndTheMissions) {
+  const Json all = json();
+  EXPECT_THAT(keysOf(all), ElementsAre("hotspots", "missions"));
+  const Json& left = all["hotspots"][1]["history"];
+  ASSERT_THAT(left, SizeIs(2));
+  EXPECT_EQ(left[0]["mission"], "mon, \"early\"");
+  EXPECT_EQ(left[0]["state"], "new");
+  EXPECT_FALSE(left[0]["alarm"]);
+  EXPECT_EQ(left[1]["state"], "steady");
+  EXPECT_EQ(left[1]["delta"], all["hotspots"][1]["delta"]);
+  EXPECT_THAT(all["hotspots"][0]["history"], SizeIs(1)) << "from the first sight on";
+  ASSERT_THAT(all["missions"], SizeIs(2));
+  EXPECT_EQ(all["missions"][1]["name"], "tue");
+  EXPECT_EQ(all["missions"][1]["ambient"], 15.0);
+  EXPECT_EQ(all["missions"][1]["cells"], found_.layers[1]->samples().size());
+}
+
+TEST_F(HotspotTable, JsonTellsWhatWasFoundOfTheAssets) {
+  Asset trafo{.name = "Trafo T1"}, far{.name = "far away"};
+  trafo.T_world_box.translation = {1.05, 0.75, 1.0};
+  trafo.size = {0.3, 0.3, 0.3};
+  far.T_world_box.translation = {50.0, 0.0, 0.0};
+  const HotspotJudgement judgement{.assets = Assets({trafo, far})};
+  const ThermalMap map = Station::open(folder_ / "plant.tvx").loadMap();
+  const Json assets = Json::parse(hotspotsJson({found_, judgement, hotspotRows(found_, judgement),
+                                                surveyMission(found_, map, judgement, 1)}))["assets"];
+  ASSERT_THAT(assets, SizeIs(2));
+  EXPECT_EQ(assets[0]["name"], "Trafo T1");
+  EXPECT_EQ(assets[0]["state"], "hot");
+  EXPECT_EQ(assets[0]["hotspots"], Json({2}));
+  EXPECT_EQ(assets[0]["coverage"], 1.0);
+  EXPECT_GT(assets[0]["max"], 60.0);
+  EXPECT_EQ(assets[1]["state"], "not_seen");
+  EXPECT_TRUE(assets[1]["max"].is_null());
+}
+
 TEST_F(HotspotTable, OfNothingIsAnEmptyListAndAHeader) {
-  EXPECT_EQ(Json::parse(hotspotsJson({})), (Json{{"hotspots", Json::array()}}));
+  const StationHotspots nothing;
+  EXPECT_EQ(Json::parse(hotspotsJson({nothing, HotspotJudgement{}})),
+            (Json{{"hotspots", Json::array()}, {"missions", Json::array()}}));
   const auto header = csv({}).at(0);
   EXPECT_THAT(csv({}), SizeIs(1));
   EXPECT_EQ(header, csv(hotspotRows(found_, {})).at(0));
@@ -151,7 +222,7 @@ TEST_F(HotspotTable, CsvHasTheContentOfTheJson) {
   rows[0].asset = "pump \"A\", left\nlower";
   const auto lines = csv(rows);
   ASSERT_THAT(lines, SizeIs(3));
-  const Json spots = Json::parse(hotspotsJson(rows))["hotspots"];
+  const Json spots = Json::parse(hotspotsJson({found_, HotspotJudgement{}, rows}))["hotspots"];
   const auto field = [&](std::size_t row, const std::string& name) {
     const auto place = std::find(lines[0].begin(), lines[0].end(), name);
     EXPECT_NE(place, lines[0].end()) << name;
@@ -222,8 +293,10 @@ TEST_F(HotspotTable, DifferencesWithWhatNobodySawAreNull) {
 }
 
 TEST_F(HotspotTable, IsTheSameTextEveryTime) {
-  EXPECT_EQ(hotspotsJson(hotspotRows(found_, {})),
-            hotspotsJson(hotspotRows(stationHotspots(Station::open(folder_ / "plant.tvx"), {}), {})));
+  const StationHotspots again = stationHotspots(Station::open(folder_ / "plant.tvx"), {});
+  const HotspotJudgement judgement;
+  EXPECT_EQ(hotspotsJson({found_, judgement, hotspotRows(found_, judgement)}),
+            hotspotsJson({again, judgement, hotspotRows(again, judgement)}));
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ Hotspot spotSeenFrom(float range) {
   Hotspot spot;
   spot.position.p_world = {0.3, 0.0, 5.0};
   spot.best_view = {range, std::nanf("")};
+  spot.best_seen = spot.position.p_world;
   spot.normal = {0.0, 0.0, -1.0};
   return spot;
 }
@@ -39,6 +40,19 @@ TEST(FindBestFrame, IsTheOneAsFarAwayAsTheBestView) {
   EXPECT_NEAR(spot.best_view.incidence, std::atan(0.3 / 2.9851), 1e-6);
 }
 
+TEST(FindBestFrame, IsTheFrameOfTheCellWithTheBestViewAndThePixelOfThePeak) {
+  Hotspot spot = spotSeenFrom(3.0F);
+  spot.best_seen = {0.3, 0.5, 5.0};  // of a spot half a metre wide
+  const std::vector<FramePose> frames{frameFrom({0.3, 0.0, 2.0}, 1), frameFrom({0.3, 0.5, 2.0}, 2)};
+  findBestFrame(spot, frames, camera(), 0.05);
+  ASSERT_TRUE(spot.best_frame);
+  EXPECT_EQ(spot.best_frame->stamp, frames[1].stamp);
+  EXPECT_NEAR(spot.best_frame->pixel.y(), 59.5 - 150.0 * 0.5 / 3.0, 1e-9);
+  spot.best_seen = {0.3, 1.5, 5.0};
+  findBestFrame(spot, std::vector{frameFrom({0.3, 2.5, 2.172}, 3)}, camera(), 0.05);
+  EXPECT_NEAR(spot.best_frame->pixel.y(), 59.5 - 150.0 / 2.828, 0.02) << "the peak is outside: the cell's";
+}
+
 TEST(FindBestFrame, KeepsAnIncidenceThatIsKnown) {
   Hotspot spot = spotSeenFrom(3.0F);
   spot.best_view.incidence = 0.7F;
@@ -49,7 +63,7 @@ TEST(FindBestFrame, KeepsAnIncidenceThatIsKnown) {
 
 TEST(FindBestFrame, LeavesASpotThatNoFrameFits) {
   Hotspot spot = spotSeenFrom(3.0F);
-  const std::vector<FramePose> frames{frameFrom({0.3, 0.0, 1.9}, 1),     // too far
+  const std::vector<FramePose> frames{frameFrom({0.3, 0.0, 1.8}, 1),     // too far
                                       frameFrom({0.3, 0.0, 8.0}, 2),     // behind
                                       frameFrom({3.0, 0.0, 3.691}, 3)};  // beside the image
   findBestFrame(spot, frames, camera(), 0.05);

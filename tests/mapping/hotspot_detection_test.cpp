@@ -41,7 +41,7 @@ TEST(FindHotspots, FindsAPeakWhereAndAsHotAsItIs) {
   EXPECT_NEAR(spot.width, 0.06, 0.01);
   EXPECT_EQ(spot.bias_sigma, 2.0);
   EXPECT_GT(std::abs(spot.normal.z()), 0.99);
-  EXPECT_FALSE(spot.reads_low);
+  EXPECT_FALSE(spot.readsLow());
   EXPECT_GE(spot.hottest_cell, spot.p95);
   EXPECT_GE(spot.p95, spot.mean);
   EXPECT_EQ(spot.best_view.range, 3.0F);
@@ -155,13 +155,13 @@ TEST(FindHotspots, PutsBackWhatBlurTakesOffAndSaysWhereItCannot) {
     ASSERT_THAT(spots, SizeIs(1));
     EXPECT_NEAR(spots[0].peak.value, 60.0, 3.5) << width;
     EXPECT_GT(spots[0].peak.value, spots[0].hottest_cell);
-    EXPECT_FALSE(spots[0].reads_low);
+    EXPECT_FALSE(spots[0].readsLow());
   }
   // From so far away that a pixel is as wide as the joint it reads low.
   const CameraSight coarse{.focal_px = 40.0, .blur_px = 0.7};
   const auto spots = spotsOf(plateWith({{kMiddle, 40.0, 0.06}}), {}, coarse);
   ASSERT_THAT(spots, SizeIs(1));
-  EXPECT_TRUE(spots[0].reads_low);
+  EXPECT_TRUE(spots[0].readsLow());
 }
 
 TEST(FindHotspots, CountsPixelsOfTheBestView) {

@@ -118,7 +118,7 @@ TEST_F(Histories, WhatReadsLowIsABoundFromBelow) {
     fly({{kLeft, 30.0, 0.06}});
     Hotspot spot = history_.missions().back().hotspots.at(0);
     spot.delta = {delta, 0.5};
-    spot.reads_low = reads_low;
+    spot.is_bound = reads_low;
     return spot;
   };
   HotspotHistory history;
@@ -184,6 +184,10 @@ TEST_F(Histories, ASpotThatComesBackKeepsItsId) {
   EXPECT_EQ(state(1, 1), HotspotState::not_observed);
   EXPECT_EQ(state(1, 2), HotspotState::gone);
   EXPECT_EQ(history_.tracks()[0].lastSeen(), 3U);
+  // What was mended and is hot again is not what it was before.
+  EXPECT_EQ(state(1, 3), HotspotState::fresh);
+  EXPECT_TRUE(alarm(1, 3));
+  EXPECT_NEAR(history_.tracks()[0].changes[3]->from->value, 0.0, 1.0);
   const auto back = history_.between(2, 3);
   ASSERT_THAT(back, SizeIs(1));
   EXPECT_EQ(back[0].change.state, HotspotState::fresh);

@@ -65,8 +65,14 @@ TEST_F(IntrinsicsError, IsZeroWhereNothingIsDeclaredOrNoFrameIsKnown) {
   EXPECT_TRUE(intrinsicsCovariance(spot, {}, camera).isZero());
   const ThermalCamera certain{.camera = Camera(lens())};
   EXPECT_TRUE(intrinsicsCovariance(spot, frames, certain).isZero());
+}
+
+TEST_F(IntrinsicsError, WithoutABestFrameIsThatOfTheFrameThatWouldMoveItMost) {
+  const double known = intrinsicsCovariance(spot, frames, camera).trace();
   spot.best_frame.reset();
-  EXPECT_TRUE(intrinsicsCovariance(spot, frames, camera).isZero());
+  EXPECT_GE(intrinsicsCovariance(spot, frames, camera).trace(), known);
+  for (FramePose& frame : frames) frame.T_world_camera.translation += Eigen::Vector3d(1e3, 0.0, 0.0);
+  EXPECT_TRUE(intrinsicsCovariance(spot, frames, camera).isZero()) << "none had it in its picture";
 }
 
 TEST_F(IntrinsicsError, OfAnUnknownNormalIsAcrossTheView) {

@@ -203,7 +203,7 @@ TEST(FitPeak, IsALeastSquareWithTheCovarianceOfNumericDerivatives) {
     const Eigen::MatrixXd known =
         J.topRows(n).transpose() * J.topRows(n) / scale + J.bottomRows(5).transpose() * J.bottomRows(5);
     const Eigen::MatrixXd covariance = known.inverse();
-    EXPECT_LT((fit->covariance - covariance).norm(), 1e-4 * covariance.norm());
+    EXPECT_LT((fit->independent - covariance).norm(), 1e-4 * covariance.norm());
   }
 }
 
