@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "io/report_drawings.hpp"
 #include "io/report_html.hpp"
@@ -27,8 +29,8 @@ std::string mapFigure(const ReportContents& contents, const HotspotRow& row) {
   const std::string label = fmt::format("Temperatures around hot spot {}", row.id);
   return "<figure class=\"block spot-picture\">" + spotDrawing(drawn, *row.spot, label) +
          fmt::format(
-             "<figcaption>Rendered from the temperatures of mission {} in the map, seen {}. Blue: the 95 % "
-             "ellipsoid of the position. Light grey: no temperature.</figcaption></figure>\n",
+             "<figcaption>The map's temperatures of mission {}, seen {}. Blue: the 95 % ellipsoid of the "
+             "position. Light grey: no temperature.</figcaption></figure>\n",
              missionNumber(mission), from);
 }
 
@@ -83,8 +85,7 @@ std::string readsLowText(const Hotspot& spot) {
   if (spot.is_bound) {
     return "<b>yes</b>: under 3 &times; 3 pixels, or more blur than can be put back; the true peak is higher";
   }
-  return spot.readsLow() ? "<b>yes</b>: too little was seen to put back what blur takes off, to 2 &deg;C"
-                         : "no";
+  return spot.readsLow() ? "<b>yes</b>: its peak is not known to 2 &deg;C" : "no";
 }
 
 std::string temperatureBlock(const ReportContents& contents, const HotspotRow& row) {
@@ -92,19 +93,21 @@ std::string temperatureBlock(const ReportContents& contents, const HotspotRow& r
   std::string severity = severityChip(row, contents.report.judgement.table);
   if (!row.action.empty()) severity.append(1, ' ').append(escaped(row.action));
   const std::string similar = row.severity_similar.empty() ? "none" : escaped(row.severity_similar);
-  return "<h3>Temperatures</h3>\n" +
-         factTable({{"severity", severity},
-                    {"peak", celsius({spot.peak.value, spot.peakSigma()})},
-                    {"corrected for its emissivity",
-                     row.corrected_peak ? celsius(*row.corrected_peak) : "not known"},
-                    {"the camera's bias in it", fmt::format("&pm; {:.1f} &deg;C", spot.bias_sigma)},
-                    {"over its surroundings", celsius(spot.delta) + " (class: " + similar + ")"},
-                    {"surroundings", celsius(spot.reference)},
-                    {"over the air", fmt::format("{:.1f} &deg;C (air: {:.1f} &deg;C)",
-                                                 judgedPeak(row) - row.ambient, row.ambient)},
-                    {"hottest cell", fmt::format("{:.1f} &deg;C", spot.hottest_cell)},
-                    {"95th percentile, mean", fmt::format("{:.1f}, {:.1f} &deg;C", spot.p95, spot.mean)},
-                    {"reads low", readsLowText(spot)}});
+  std::vector<std::pair<std::string, std::string>> facts{
+      {"severity", severity},
+      {"peak", celsius({spot.peak.value, spot.peakSigma()})},
+      {"the camera's bias in it", fmt::format("&pm; {:.1f} &deg;C", spot.bias_sigma)}};
+  if (row.corrected_peak) facts.emplace_back("peak, for its emissivity", celsius(*row.corrected_peak));
+  facts.insert(facts.end(),
+               {{"over its surroundings",
+                 celsius({spot.delta.value, spot.deltaSigma()}) + " (class: " + similar + ")"},
+                {"surroundings", celsius(spot.reference)},
+                {"over the air", fmt::format("{:.1f} &deg;C (air: {:.1f} &deg;C)",
+                                             judgedPeak(row) - row.ambient, row.ambient)},
+                {"hottest cell", fmt::format("{:.1f} &deg;C", spot.hottest_cell)},
+                {"95th percentile, mean", fmt::format("{:.1f}, {:.1f} &deg;C", spot.p95, spot.mean)},
+                {"reads low", readsLowText(spot)}});
+  return "<h3>Temperatures</h3>\n" + factTable(facts);
 }
 
 std::string sizeBlock(const HotspotRow& row) {

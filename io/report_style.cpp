@@ -46,7 +46,8 @@ figcaption { font-size: 8.5pt; color: #4a5058; margin-top: 1mm; }
 .columns { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm; align-items: start; }
 .pictures { display: grid; grid-template-columns: repeat(3, 1fr); gap: 0 5mm; align-items: start; }
 .pictures figure { margin-bottom: 1mm; }
-@media print { .spot h3 { margin-top: 2.5mm; } }
+@media print { .spot h3 { margin-top: 2.5mm; } .pictures svg { width: 48mm; }
+  .spot td, .spot th { padding: 0.6mm 1.6mm; } }
 .spot h3 { margin-top: 3mm; }
 .columns > * { min-width: 0; }
 .columns h3:first-child { margin-top: 0; }
