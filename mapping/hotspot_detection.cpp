@@ -22,6 +22,7 @@ constexpr double kSure = 3.0;             // sigmas
 constexpr double kGap = 0.15;             // metres between a spot and its surroundings
 constexpr double kSurePeak = 3.0;         // sigmas
 constexpr double kMostPutBack = 1.7;      // times what was seen of a rise
+constexpr std::size_t kPatch = 16;        // cells that need no shape
 constexpr std::uint64_t kConfirmed = 12;  // temperatures that need no shape
 constexpr std::size_t kProbes = 500;      // samples
 constexpr double kLines = 0.2;            // of the probes on a known surface
@@ -166,9 +167,9 @@ class Detection {
   }
 
   /// By the criteria, now that its own surroundings are known. On a surface that is known, what is only
-  /// warmer than the rest has to have the shape of a peak: a warm wall seen past something cold is none, nor
-  /// is the warm image on a floor of something in front that no laser met. What was seen a few times has to
-  /// be sure of its shape.
+  /// warmer than the rest and not large has to have the shape of a peak: a warm wall seen past something cold
+  /// is none, nor is the warm image on a floor of something in front that no laser met. What was seen a few
+  /// times has to be sure of its shape.
   [[nodiscard]] bool isHot(const HotCandidate& candidate) const {
     if (criteria_.above && candidate.hottest >= *criteria_.above) return true;
     if (!criteria_.delta || candidate.hottest - candidate.reference.celsius < *criteria_.delta) return false;
@@ -176,7 +177,8 @@ class Detection {
                                            [&](std::uint32_t i) { return !layer_.normal(i).isZero(); });
     const bool is_confirmed = observationsOf(candidate) >= kConfirmed;
     if (!knows_surface && (is_confirmed || has_lines_only_)) return true;
-    return candidate.fit && (isPeak(candidate) || (is_confirmed && peakIsWithin(candidate, layer_)));
+    if (candidate.fit) return isPeak(candidate) || (is_confirmed && peakIsWithin(candidate, layer_));
+    return is_confirmed && candidate.reference.same_surface && candidate.cells.size() >= kPatch;
   }
 
   /// Whether a fit is sure that there is a peak, and that it was seen: not made of the flank of one.
