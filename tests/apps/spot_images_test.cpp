@@ -45,7 +45,7 @@ cv::Mat greyOf(const std::string& bytes) {
   return cv::imdecode(encoded, cv::IMREAD_GRAYSCALE);
 }
 
-TEST_F(SpotImagesOfAHall, ShowEachSpotWhereItIsHottest) {
+TEST_F(SpotImagesOfAHall, ShowEachSpotWhereItIsHottestAndAsMuchOfIt) {
   const StationHotspots spots = found();
   OpenedMission opened = openMission(*folder_ / "hall");
   const SpotImagesById images = cutSpotImages(spots, opened);
@@ -71,13 +71,9 @@ TEST_F(SpotImagesOfAHall, ShowEachSpotWhereItIsHottest) {
     EXPECT_EQ(crop.stamp, spot.best_frame->stamp);
     EXPECT_THAT(crop.name, testing::StartsWith("thermal/"));
   }
-}
-
-TEST_F(SpotImagesOfAHall, TheVisibleCropShowsAsMuchOfTheSurroundings) {
-  const StationHotspots spots = found();
-  OpenedMission opened = openMission(*folder_ / "hall");
+  // As much of the surroundings in the visible picture.
   std::size_t visible = 0;
-  for (const auto& [id, image] : cutSpotImages(spots, opened)) {
+  for (const auto& [id, image] : images) {
     if (!image.visible) continue;
     ++visible;
     EXPECT_EQ(image.visible->stamp, image.thermal->stamp);
@@ -90,7 +86,7 @@ TEST_F(SpotImagesOfAHall, TheVisibleCropShowsAsMuchOfTheSurroundings) {
   EXPECT_GE(visible, 1U);
 }
 
-TEST_F(SpotImagesOfAHall, AreOfMissionsOfTheStationAndOfTheirFrames) {
+TEST_F(SpotImagesOfAHall, StandInTheReportAndAreOfMissionsOfTheStation) {
   const StationHotspots spots = found();
   const fs::path other = *folder_ / "other";
   fs::copy(*folder_ / "hall", other, fs::copy_options::recursive);
@@ -103,9 +99,7 @@ TEST_F(SpotImagesOfAHall, AreOfMissionsOfTheStationAndOfTheirFrames) {
   EXPECT_THAT(messageOf<DataError>([&] { static_cast<void>(cutSpotImages(spots, cut)); }),
               testing::AllOf(testing::HasSubstr("found mission elsewhere"), testing::HasSubstr("hall")));
   fs::remove_all(other);
-}
 
-TEST_F(SpotImagesOfAHall, StandInTheReport) {
   const Outcome made = thermovox(folder_->path(), "report s.tvx a.html --images hall");
   ASSERT_EQ(made.code, 0) << made.err;
   const std::string html = bytesOf(*folder_ / "a.html");
