@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -10,7 +9,6 @@
 #include "mapping/hot_clusters.hpp"
 #include "mapping/hot_description.hpp"
 #include "mapping/local_plane.hpp"
-#include "mapping/percentile.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -50,14 +48,13 @@ class Detection {
     std::vector<Hotspot> spots;
     for (std::size_t k = 0; k < clusters_.size(); ++k) {
       if (clusters_[k].empty()) continue;
-      std::optional<HotCandidate> candidate = candidateOf(clusters_[k]);
-      if (!candidate) continue;
-      candidate->fit = fitCandidate(*candidate, layer_, camera_, hot_);
-      if (candidate->fit && absorb(k, *candidate)) {
-        if (const auto refit = fitCandidate(*candidate, layer_, camera_, hot_)) candidate->fit = refit;
+      HotCandidate candidate = candidateOf(clusters_[k]);
+      candidate.fit = fitCandidate(candidate, layer_, camera_, hot_);
+      if (candidate.fit && absorb(k, candidate)) {
+        if (const auto refit = fitCandidate(candidate, layer_, camera_, hot_)) candidate.fit = refit;
       }
-      if (candidate->cells.size() < kFewestCells || !standsOut(*candidate) || !isHot(*candidate)) continue;
-      spots.push_back(hotspotOf(*candidate, layer_, camera_));
+      if (candidate.cells.size() < kFewestCells || !standsOut(candidate) || !isHot(candidate)) continue;
+      spots.push_back(hotspotOf(candidate, layer_, camera_));
     }
     std::stable_sort(spots.begin(), spots.end(),
                      [](const Hotspot& a, const Hotspot& b) { return a.peak.value > b.peak.value; });
@@ -71,7 +68,7 @@ class Detection {
     return hottest;
   }
 
-  [[nodiscard]] std::optional<HotCandidate> candidateOf(const HotCluster& cells) const {
+  [[nodiscard]] HotCandidate candidateOf(const HotCluster& cells) const {
     const std::optional<LocalReference> reference = localReference(layer_, cells, kGap, hot_);
     HotCandidate candidate{.cells = cells, .hottest = hottestOf(cells)};
     candidate.reference = reference.value_or(LocalReference{coolestOf(cells), 1.0});
