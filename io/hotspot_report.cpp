@@ -75,9 +75,7 @@ looks, and a reflection may look like a hot spot.</dd>
 }  // namespace
 
 const HotspotTrack& ReportContents::trackOf(const HotspotRow& row) const {
-  const std::vector<HotspotTrack>& tracks = report.found.history.tracks();
-  return *std::find_if(tracks.begin(), tracks.end(),
-                       [&](const HotspotTrack& track) { return track.id == row.id; });
+  return thermovox::trackOf(report.found, row);
 }
 
 std::string severityChip(const HotspotRow& row, const SeverityTable& table) {

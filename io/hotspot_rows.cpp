@@ -82,6 +82,12 @@ std::vector<HotspotRow> hotspotRows(const StationHotspots& found, const HotspotJ
   return rows;
 }
 
+const HotspotTrack& trackOf(const StationHotspots& found, const HotspotRow& row) {
+  const std::vector<HotspotTrack>& tracks = found.history.tracks();
+  return *std::find_if(tracks.begin(), tracks.end(),
+                       [&](const HotspotTrack& track) { return track.id == row.id; });
+}
+
 std::vector<AssetSurvey> surveyMission(const StationHotspots& found, const ThermalMap& scene,
                                        const HotspotJudgement& judgement, std::size_t mission) {
   const double ambient = ambientOf(found, mission, judgement.ambient);

@@ -49,6 +49,9 @@ struct HotspotRow {
 [[nodiscard]] std::vector<HotspotRow> hotspotRows(const StationHotspots& found,
                                                   const HotspotJudgement& judgement);
 
+/// What the missions made of a row's hot spot.
+[[nodiscard]] const HotspotTrack& trackOf(const StationHotspots& found, const HotspotRow& row);
+
 /// What a mission's rises are counted from, C.
 [[nodiscard]] double ambientOf(const StationHotspots& found, std::size_t mission,
                                const std::optional<double>& asked);

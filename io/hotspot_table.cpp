@@ -132,12 +132,10 @@ std::vector<std::pair<std::string, std::string>> columnsOf(const HotspotRow& row
 
 /// What each mission made of a hot spot, from its first sight on.
 Json historyJson(const StationHotspots& found, const HotspotRow& row) {
-  const std::vector<HotspotTrack>& tracks = found.history.tracks();
-  const auto track =
-      std::find_if(tracks.begin(), tracks.end(), [&](const HotspotTrack& one) { return one.id == row.id; });
+  const HotspotTrack& track = trackOf(found, row);
   Json history = Json::array();
   for (std::size_t i = 0; i < found.missions.size(); ++i) {
-    const std::optional<HotspotChange>& change = track->changes[i];
+    const std::optional<HotspotChange>& change = track.changes[i];
     if (!change) continue;
     history.push_back({{"mission", found.missions[i].name},
                        {"state", nameOf(change->state)},
