@@ -8,10 +8,10 @@ packages_build=(
   g++ cmake ninja-build
   libeigen3-dev libpcl-dev liboctomap-dev libopencv-dev
   libyaml-cpp-dev libtiff-dev libdeflate-dev libsqlite3-dev libzstd-dev
-  libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
+  libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev libceres-dev
 )
 # What the tests and benchmarks need besides. ccache and mold are used where they are found.
-packages_test=(libgtest-dev libgmock-dev libbenchmark-dev libcharls-dev libceres-dev libbz2-dev libopenvdb-dev python3 sqlite3 ccache mold)
+packages_test=(libgtest-dev libgmock-dev libbenchmark-dev libcharls-dev libbz2-dev libopenvdb-dev python3 sqlite3 ccache mold)
 # Sanitizers and fuzz targets; llvm-14 has the symbolizer that gives their reports names and lines.
 packages_sanitizers=(clang libclang-rt-14-dev llvm-14)
 # Formatting, and the scripts' own checks.

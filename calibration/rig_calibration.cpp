@@ -1,0 +1,279 @@
+#include "calibration/rig_calibration.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "calibration/board_edges.hpp"
+#include "calibration/board_points.hpp"
+#include "calibration/board_search.hpp"
+#include "calibration/bundle_statistics.hpp"
+#include "calibration/camera_start.hpp"
+#include "calibration/capture_selection.hpp"
+#include "calibration/free_intrinsics.hpp"
+#include "calibration/laser_start.hpp"
+#include "calibration/noise_model.hpp"
+#include "calibration/verdict_words.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+constexpr double kInset = 0.01;        // metres from the plate's edge: mixed returns
+constexpr double kSlack = 0.03;        // metres off the plane, and five sigmas of the laser
+constexpr double kWellExplained = 0.3; // mean cost of a start, 0 to 1, that needs no wider search
+constexpr int kLaserRounds = 3;        // of extraction and bundle
+
+class Calibrator {
+ public:
+  Calibrator(const CalibrationInput& input, const CalibrationOptions& options)
+      : input_(input), options_(options) {}
+
+  RigCalibration run();
+
+ private:
+  void tell(const std::string& stage, double done) const {
+    if (options_.progress) options_.progress(stage, done);
+  }
+  void startFromCameras();
+  void fitCameras();
+  void calibrateLaser();
+  [[nodiscard]] std::optional<LaserStart> findLaser();
+  [[nodiscard]] std::vector<LaserSight> sights(bool near_guess) const;
+  void takePlanes(const RigEstimate& estimate, bool with_edges);
+  void dropCaptures(const CaptureSelection& selection);
+  void refuseLaser(const std::string& reason);
+  void judge();
+  void judgeCameras(const Linearisation& linear, const Eigen::MatrixXd& covariance);
+  void judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& covariance);
+
+  const CalibrationInput& input_;
+  const CalibrationOptions& options_;
+  RigCalibration result_;
+  BundleModel model_;
+  BundleData data_;
+  std::vector<std::optional<PlaneMoments>> planes_;  ///< of each capture, found without its neighbours
+  std::vector<bool> counts_;                         ///< of each capture, for the laser
+};
+
+void Calibrator::startFromCameras() {
+  tell("cameras", 0.0);
+  CameraStart start = startCameras(input_, options_.threads);
+  result_.estimate = std::move(start.estimate);
+  result_.captures = std::move(start.captures);
+  result_.dropped = std::move(start.dropped);
+  data_.points = boardPoints(input_.board);
+  if (input_.laser) {
+    data_.laser = input_.laser->kind;
+    model_.common_range_bias_sigma = input_.laser->range_bias_sigma;
+  }
+  model_.threads = options_.threads;
+  std::vector<std::size_t> views(input_.cameras.size(), 0);
+  for (const BoardCapture& capture : result_.captures) {
+    CaptureObservations seen;
+    for (std::size_t camera = 0; camera < capture.views.size(); ++camera) {
+      if (!capture.views[camera]) continue;
+      ++views[camera];
+      for (const CornerObservation& corner : cornersOf(*capture.views[camera], static_cast<int>(camera)))
+        seen.corners.push_back(corner);
+    }
+    data_.captures.push_back(std::move(seen));
+  }
+  for (std::size_t camera = 0; camera < input_.cameras.size(); ++camera) {
+    model_.free_intrinsics.push_back(freeIntrinsics(input_.cameras[camera], views[camera]));
+    model_.corner_factor.push_back(1.0);
+    result_.cameras.emplace_back();
+    result_.cameras.back().views = static_cast<int>(views[camera]);
+  }
+}
+
+void Calibrator::fitCameras() {
+  tell("cameras", 0.5);
+  model_.corner_loss = BundleModel::Loss::huber;
+  BundleFit fit = solveBundle(data_, result_.estimate, model_);
+  dropCornerOutliers(data_, fit.estimate, model_);
+  model_.corner_loss = BundleModel::Loss::none;
+  fit = fitWithNoise(data_, fit.estimate, model_);
+  result_.estimate = fit.estimate;
+}
+
+/// What may be the board in each capture's returns; near where the guess has it, or anywhere.
+std::vector<LaserSight> Calibrator::sights(bool near_guess) const {
+  const LaserGuess& laser = *input_.laser;
+  const double diagonal = plateOf(input_.board).norm();
+  std::vector<LaserSight> sights;
+  for (std::size_t i = 0; i < result_.captures.size(); ++i) {
+    sights.push_back({result_.estimate.T_reference_board[i], {}});
+    if (data_.captures[i].corners.empty()) continue;
+    ReturnSet returns = result_.captures[i].returns_laser;
+    if (near_guess && laser.kind == LaserKind::cloud) {
+      const Eigen::Vector3d middle =
+          laser.T_reference_laser.inverse() * sights.back().T_reference_board.translation;
+      const double reach = 0.5 * diagonal + 0.1 + 0.2 * middle.norm();  // 11 degrees
+      returns.erase(std::remove_if(returns.begin(), returns.end(),
+                                   [&](const auto& p) { return (p - middle).norm() > reach; }),
+                    returns.end());
+    }
+    for (const ReturnSet& candidate : boardCandidates(returns, laser.kind, input_.board)) {
+      if (auto moments = planeMoments(candidate, laser.kind, laser.range_sigma))
+        sights.back().candidates.push_back(*std::move(moments));
+    }
+    tell("board in the laser", static_cast<double>(i + 1) / static_cast<double>(result_.captures.size()));
+  }
+  return sights;
+}
+
+/// First near the guess; where that explains too little, anywhere.
+std::optional<LaserStart> Calibrator::findLaser() {
+  std::optional<LaserStart> best;
+  std::vector<LaserSight> best_sights;
+  for (const bool near_guess : {true, false}) {
+    std::vector<LaserSight> found = sights(near_guess);
+    std::optional<LaserStart> start =
+        startLaser(found, data_.laser, input_.laser->T_reference_laser, plateOf(input_.board));
+    if (start && (!best || start->cost < best->cost)) {
+      best = std::move(start);
+      best_sights = std::move(found);
+    }
+    if (data_.laser != LaserKind::cloud || (best && best->cost < kWellExplained && !best->rival)) break;
+  }
+  planes_.assign(result_.captures.size(), std::nullopt);
+  for (std::size_t i = 0; best && i < best_sights.size(); ++i) {
+    if (best->chosen[i]) planes_[i] = best_sights[i].candidates[*best->chosen[i]];
+  }
+  return best;
+}
+
+/// The returns that are on the plates as the estimate has them, of the captures that count; of the others what
+/// was found without it.
+void Calibrator::takePlanes(const RigEstimate& estimate, bool with_edges) {
+  const LaserGuess& laser = *input_.laser;
+  for (std::size_t i = 0; i < data_.captures.size(); ++i) {
+    CaptureObservations& capture = data_.captures[i];
+    capture.plane = planes_[i];
+    capture.edges.clear();
+    if (!counts_[i] || !capture.plane) continue;
+    const Pose T_laser_board = estimate.T_reference_laser.inverse() * estimate.T_reference_board[i];
+    const ReturnSet& returns = result_.captures[i].returns_laser;
+    if (laser.kind != LaserKind::beam) {
+      const double slack = kSlack + 5.0 * capture.plane->sigma;
+      auto moments = planeMoments(returnsOnBoard(returns, T_laser_board, input_.board, kInset, slack),
+                                  laser.kind, laser.range_sigma);
+      if (moments) capture.plane = *std::move(moments);
+    }
+    if (with_edges)
+      capture.edges = edgeSides(returns, laser.kind, T_laser_board, input_.board, capture.plane->sigma);
+  }
+}
+
+void Calibrator::calibrateLaser() {
+  result_.laser.emplace();
+  const std::optional<LaserStart> start = findLaser();
+  if (!start) return refuseLaser("no capture has the board in the laser's data");
+  if (start->rival) return refuseLaser(rivalWords(*start));
+  counts_.assign(planes_.size(), true);
+  RigEstimate estimate = result_.estimate;
+  estimate.T_reference_laser = start->T_reference_laser;
+  for (int round = 0; round < kLaserRounds; ++round) {
+    tell("laser", static_cast<double>(round) / kLaserRounds);
+    takePlanes(estimate, round > 0);
+    if (const auto reason = tooFewCaptures(data_)) return refuseLaser(*reason);
+    BundleData planes_only = data_;
+    for (CaptureObservations& capture : planes_only.captures) {
+      if (round == 0) capture.edges.clear();
+    }
+    const CaptureSelection selection = selectCaptures(planes_only, estimate, model_);
+    counts_ = selection.counts;
+    model_.range_bias_sigma = selection.range_bias_sigma;
+    if (round + 1 == kLaserRounds) dropCaptures(selection);
+    estimate = selection.fit.estimate;
+  }
+  data_ = onlyCounting(data_, counts_);
+  tell("bundle", 0.0);
+  BundleFit fit = fitWithNoise(data_, estimate, model_);
+  if (dropEdgeOutliers(data_, fit.estimate, model_) > 0) fit = fitWithNoise(data_, fit.estimate, model_);
+  result_.estimate = fit.estimate;
+}
+
+void Calibrator::dropCaptures(const CaptureSelection& selection) {
+  for (std::size_t i = 0; i < result_.captures.size(); ++i) {
+    const BoardCapture& capture = result_.captures[i];
+    if (capture.returns_laser.empty()) continue;
+    if (data_.captures[i].corners.empty()) {
+      result_.dropped.push_back({capture.name, "no image of it shows the whole board"});
+    } else if (!planes_[i]) {
+      result_.dropped.push_back({capture.name, "its returns have no board where the images have it"});
+    } else if (!selection.counts[i]) {
+      result_.dropped.push_back(
+          {capture.name, movedWords(*planes_[i], selection.fit.estimate, i, selection.probability[i])});
+    } else {
+      result_.used.push_back(capture.name);
+    }
+  }
+}
+
+void Calibrator::refuseLaser(const std::string& reason) {
+  result_.laser->observable = false;
+  result_.laser->reason = reason;
+  for (CaptureObservations& capture : data_.captures) {
+    capture.plane.reset();
+    capture.edges.clear();
+  }
+}
+
+void Calibrator::judgeCameras(const Linearisation& linear, const Eigen::MatrixXd& covariance) {
+  for (std::size_t camera = 0; camera < result_.cameras.size(); ++camera) {
+    CameraVerdict& verdict = result_.cameras[camera];
+    verdict.corner_factor = model_.corner_factor[camera];
+    const std::vector<int>& free = model_.free_intrinsics[camera];
+    const int first = linear.layout.intrinsics[camera];
+    if (first >= 0 && covariance.size() > 0) {
+      const int all = kDistortion + result_.estimate.cameras[camera].distortion_count;
+      verdict.covariance_intrinsics = Eigen::MatrixXd::Zero(all, all);
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        for (std::size_t j = 0; j < free.size(); ++j)
+          verdict.covariance_intrinsics(free[i], free[j]) =
+              covariance(first + static_cast<Eigen::Index>(i), first + static_cast<Eigen::Index>(j));
+      }
+    }
+    const int pose = linear.layout.camera_pose[camera];
+    verdict.pose_estimated = pose >= 0 && covariance.size() > 0;
+    if (verdict.pose_estimated) verdict.covariance_pose = covariance.block<6, 6>(pose, pose);
+  }
+}
+
+void Calibrator::judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& covariance) {
+  const LaserVerdictInput about{.kind = data_.laser,
+                                .free_intrinsics = model_.free_intrinsics.front(),
+                                .captures = static_cast<int>(data_.captures.size())};
+  if (covariance.size() == 0) return refuseLaser(geometryWords(data_, result_.estimate, true).front());
+  result_.laser = laserVerdict(linear, covariance, result_.estimate, about);
+  describe(*result_.laser, data_, result_.estimate);
+}
+
+void Calibrator::judge() {
+  tell("verdict", 0.0);
+  const Linearisation linear = linearise(data_, result_.estimate, model_);
+  const JointCovariance joint = jointCovariance(linear);
+  judgeCameras(linear, joint.covariance);
+  if (result_.laser && result_.laser->reason.empty()) judgeLaser(linear, joint.covariance);
+  result_.range_bias_sigma = model_.range_bias_sigma;
+  result_.data = data_;
+}
+
+RigCalibration Calibrator::run() {
+  startFromCameras();
+  fitCameras();
+  if (input_.laser) calibrateLaser();
+  judge();
+  return std::move(result_);
+}
+
+}  // namespace
+
+RigCalibration calibrateRig(const CalibrationInput& input, const CalibrationOptions& options) {
+  return Calibrator(input, options).run();
+}
+
+}  // namespace thermovox
