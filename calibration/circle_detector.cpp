@@ -1,20 +1,23 @@
 #include "calibration/circle_detector.hpp"
 
+#include <algorithm>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 #include <utility>
 
+#include "calibration/circle_middles.hpp"
 #include "calibration/grid_search.hpp"
 #include "calibration/local_normalisation.hpp"
 
 namespace thermovox {
 namespace {
 
-/// One sigma of a middle, px an axis. Rendered boards have 0.02 px at 8 C of contrast and 0.04 at 1.5 C
-/// (noise 50 mK, 10 px between rows); the rest is for tilted circles, whose middles are not those of their
-/// ellipses.
-constexpr double kSigma = 0.05;
+/// One sigma of a middle, px an axis. Rendered boards have 0.01 px at 8 C of contrast and 0.03 at 1.5 C,
+/// under up to 50 degrees (noise 50 mK, blur 0.6 px, 6 px and more between rows).
+constexpr double kSigma = 0.03;
+constexpr double kOutlier = 4.0;   // times the rms distance from the plane's grid: circles that ran together
+constexpr double kLeastOff = 0.3;  // px; what is less is noise
 
 /// The middles on the board, in half distances of neighbours in a row.
 Pixels circlesOnBoard(const CircleGrid& grid) {
@@ -51,26 +54,36 @@ std::optional<Pixels> gridIn(const cv::Mat& grey, const CircleGrid& grid) {
   return reduced(std::move(pixels), factor);
 }
 
-std::vector<BoardCorner> middlesOf(const Pixels& pixels) {
-  std::vector<BoardCorner> middles;
-  for (const cv::Point2f& pixel : pixels) {
-    middles.push_back({{pixel.x, pixel.y}, kSigma * kSigma * Eigen::Matrix2d::Identity(), 0.0});
+/// Whether the pixels are the grid, all of them.
+bool isBoard(const Pixels& pixels, const Pixels& board) {
+  const std::vector<double> off = offPlane(pixels, board);
+  return isFlat(pixels, board) &&
+         *std::max_element(off.begin(), off.end()) < std::max(kLeastOff, kOutlier * rms(off));
+}
+
+std::vector<BoardCorner> cornersOf(const Pixels& middles) {
+  std::vector<BoardCorner> corners;
+  for (const cv::Point2f& pixel : middles) {
+    corners.push_back({{pixel.x, pixel.y}, kSigma * kSigma * Eigen::Matrix2d::Identity(), 0.0});
   }
-  return middles;
+  return corners;
 }
 
 }  // namespace
 
 std::optional<std::vector<BoardCorner>> findCircles(const BoardImage& image, const CircleGrid& grid) {
   checkSearch(image, grid.columns, grid.rows);
-  const SearchVersions all = searchVersions(asMat(image));
+  const cv::Mat values = asMat(image);
+  const SearchVersions all = searchVersions(values);
   std::vector<cv::Mat> versions{all.plain};
   versions.insert(versions.end(), all.normalised.begin(), all.normalised.end());
   const Pixels board = circlesOnBoard(grid);
   for (const cv::Mat& version : versions) {
     for (const cv::Mat& grey : {version, cv::Mat(255 - version)}) {
-      const std::optional<Pixels> pixels = gridIn(grey, grid);
-      if (pixels && isFlat(*pixels, board)) return middlesOf(*pixels);
+      const std::optional<Pixels> ellipses = gridIn(grey, grid);
+      if (!ellipses || !isFlat(*ellipses, board)) continue;
+      const Pixels middles = circleMiddles(values, *ellipses, board);
+      if (isBoard(middles, board)) return cornersOf(middles);
     }
   }
   return std::nullopt;

@@ -20,10 +20,10 @@ struct CircleGrid {
 /// side of the board; with an even one it may be either end.
 ///
 /// The image is stretched, or else normalised locally by three widths (locallyNormalised), and enlarged; the
-/// first version in which OpenCV finds the grid counts (findCirclesGrid). It has to be that of a plane. The
-/// covariance is not of this image but a constant, 0.05 px an axis, and contrast_sigma is 0: not measured.
-/// What is found is the middle of an ellipse, which is not quite where a tilted circle's middle is seen; the
-/// difference grows with the square of the circle's size. Throws ConfigError as findChessboard does.
+/// first version in which OpenCV finds the grid counts (findCirclesGrid). It has to be that of a plane, and
+/// no circle may stand out of it. A tilted circle is seen as an ellipse, whose middle is not the circle's;
+/// that is put right (circleMiddles). The covariance is a constant, 0.03 px an axis, not this image's, and
+/// contrast_sigma is 0: not measured. Throws ConfigError as findChessboard does.
 [[nodiscard]] std::optional<std::vector<BoardCorner>> findCircles(const BoardImage& image,
                                                                   const CircleGrid& grid);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -58,19 +59,26 @@ Pixels reduced(Pixels pixels, int factor) {
   return pixels;
 }
 
-bool isFlat(const Pixels& pixels, const Pixels& board) {
+std::vector<double> offPlane(const Pixels& pixels, const Pixels& board) {
   const cv::Mat homography = cv::findHomography(board, pixels);
-  if (homography.empty()) return false;
+  if (homography.empty()) return {};
   Pixels expected;
   cv::perspectiveTransform(board, expected, homography);
-  double squares = 0.0;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const cv::Point2f off = pixels[i] - expected[i];
-    squares += static_cast<double>(off.dot(off));
-  }
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < pixels.size(); ++i) distances.push_back(cv::norm(pixels[i] - expected[i]));
+  return distances;
+}
+
+double rms(const std::vector<double>& values) {
+  const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+bool isFlat(const Pixels& pixels, const Pixels& board) {
+  const std::vector<double> off = offPlane(pixels, board);
   const cv::Rect2f box = cv::boundingRect(pixels);
   const double diagonal = std::hypot(static_cast<double>(box.width), static_cast<double>(box.height));
-  return std::sqrt(squares / static_cast<double>(pixels.size())) < std::max(kMostOff, kMostBent * diagonal);
+  return !off.empty() && rms(off) < std::max(kMostOff, kMostBent * diagonal);
 }
 
 }  // namespace thermovox

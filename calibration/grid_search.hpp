@@ -31,6 +31,11 @@ struct SearchVersions {
 /// The pixels of an enlarged image in the image itself. A pixel's centre is whole, before and after.
 [[nodiscard]] Pixels reduced(Pixels pixels, int factor);
 
+/// Each pixel's distance from where the homography that fits best has its point of the board, px; empty where
+/// there is none.
+[[nodiscard]] std::vector<double> offPlane(const Pixels& pixels, const Pixels& board);
+[[nodiscard]] double rms(const std::vector<double>& values);
+
 /// Whether the pixels are those of a plane's points, as far as a lens leaves it one.
 [[nodiscard]] bool isFlat(const Pixels& pixels, const Pixels& board);
 

@@ -40,4 +40,17 @@ struct RenderedCircles {
   }
 };
 
+/// The 4 x 11 board before a camera of 160 x 120 pixels with f = 150, so many half distances away.
+[[nodiscard]] inline RenderedCircles tiltedCircles(double tilt_deg, double distance) {
+  const Eigen::Matrix3d camera{{150.0, 0.0, 79.5}, {0.0, 150.0, 59.5}, {0.0, 0.0, 1.0}};
+  const Eigen::Vector3d axis = Eigen::Vector3d(0.6, 0.8, 0.0);
+  const Eigen::Matrix3d R_camera_board =
+      (Eigen::AngleAxisd(tilt_deg * M_PI / 180.0, axis) * Eigen::AngleAxisd(1.7, Eigen::Vector3d::UnitZ()))
+          .toRotationMatrix();
+  Eigen::Matrix3d ray_from_board = R_camera_board;  // of (x, y, 1): the board is its plane z = 0
+  ray_from_board.col(2) =
+      Eigen::Vector3d(0.0, 0.0, distance) - R_camera_board * Eigen::Vector3d(3.5, 5.0, 0.0);
+  return {.pixel_from_board = camera * ray_from_board};
+}
+
 }  // namespace thermovox::test
