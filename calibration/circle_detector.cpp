@@ -1,5 +1,6 @@
 #include "calibration/circle_detector.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
@@ -7,15 +8,15 @@
 #include <utility>
 
 #include "calibration/circle_middles.hpp"
+#include "calibration/circle_refinement.hpp"
 #include "calibration/grid_search.hpp"
 #include "calibration/local_normalisation.hpp"
 
 namespace thermovox {
 namespace {
 
-/// One sigma of a middle, px an axis. Rendered boards have 0.01 px at 8 C of contrast and 0.03 at 1.5 C,
-/// under up to 50 degrees (noise 50 mK, blur 0.6 px, 6 px and more between rows).
-constexpr double kSigma = 0.03;
+constexpr double kUnrefined = 0.25;   // px, one sigma of a middle by the search alone
+constexpr double kMostRefined = 0.7;  // of a board's circles
 constexpr double kOutlier = 4.0;   // times the rms distance from the plane's grid: circles that ran together
 constexpr double kLeastOff = 0.3;  // px; what is less is noise
 
@@ -61,11 +62,33 @@ bool isBoard(const Pixels& pixels, const Pixels& board) {
          *std::max_element(off.begin(), off.end()) < std::max(kLeastOff, kOutlier * rms(off));
 }
 
-std::vector<BoardCorner> cornersOf(const Pixels& middles) {
+/// From where the search has it; where it is not there, from where the whole board would have it.
+std::optional<BoardCorner> refined(const BoardImage& image, const SeenCircles& seen, std::size_t i,
+                                   const cv::Point2f& on_board) {
+  const Eigen::Vector2d middle(on_board.x, on_board.y);
+  CircleGuess guess{.pixel_from_board = seen.pixel_from_board,
+                    .middle = middle,
+                    .radius = seen.radius,
+                    .pixel = {seen.middles[i].x, seen.middles[i].y}};
+  if (const auto corner = refineCircle(image, guess)) return corner;
+  guess.pixel = (seen.pixel_from_board * middle.homogeneous()).hnormalized();
+  return refineCircle(image, guess);
+}
+
+std::optional<std::vector<BoardCorner>> cornersOf(const BoardImage& image, SeenCircles seen,
+                                                  const Pixels& board) {
   std::vector<BoardCorner> corners;
-  for (const cv::Point2f& pixel : middles) {
-    corners.push_back({{pixel.x, pixel.y}, kSigma * kSigma * Eigen::Matrix2d::Identity(), 0.0});
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < board.size(); ++i) {
+    cv::Point2f& pixel = seen.middles[i];
+    const std::optional<BoardCorner> corner = refined(image, seen, i, board[i]);
+    if (corner) ++count;
+    corners.push_back(corner.value_or(
+        BoardCorner{{pixel.x, pixel.y}, kUnrefined * kUnrefined * Eigen::Matrix2d::Identity(), 0.0}));
+    pixel = {static_cast<float>(corners[i].pixel.x()), static_cast<float>(corners[i].pixel.y())};
   }
+  const bool enough = static_cast<double>(count) >= kMostRefined * static_cast<double>(corners.size());
+  if (!enough || !isBoard(seen.middles, board)) return std::nullopt;
   return corners;
 }
 
@@ -82,8 +105,7 @@ std::optional<std::vector<BoardCorner>> findCircles(const BoardImage& image, con
     for (const cv::Mat& grey : {version, cv::Mat(255 - version)}) {
       const std::optional<Pixels> ellipses = gridIn(grey, grid);
       if (!ellipses || !isFlat(*ellipses, board)) continue;
-      const Pixels middles = circleMiddles(values, *ellipses, board);
-      if (isBoard(middles, board)) return cornersOf(middles);
+      if (auto corners = cornersOf(image, circleMiddles(values, *ellipses, board), board)) return corners;
     }
   }
   return std::nullopt;

@@ -21,9 +21,9 @@ struct CircleGrid {
 ///
 /// The image is stretched, or else normalised locally by three widths (locallyNormalised), and enlarged; the
 /// first version in which OpenCV finds the grid counts (findCirclesGrid). It has to be that of a plane, and
-/// no circle may stand out of it. A tilted circle is seen as an ellipse, whose middle is not the circle's;
-/// that is put right (circleMiddles). The covariance is a constant, 0.03 px an axis, not this image's, and
-/// contrast_sigma is 0: not measured. Throws ConfigError as findChessboard does.
+/// no circle may stand out of it. Middles are then where refineCircle() finds them in the image itself, those
+/// of the circles on the board, not of the ellipses that they are seen as. Throws ConfigError as
+/// findChessboard does.
 [[nodiscard]] std::optional<std::vector<BoardCorner>> findCircles(const BoardImage& image,
                                                                   const CircleGrid& grid);
 

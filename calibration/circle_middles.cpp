@@ -70,18 +70,19 @@ Eigen::Vector2d eccentricity(const Eigen::Matrix3d& H, const cv::Point2f& middle
 
 }  // namespace
 
-Pixels circleMiddles(const cv::Mat& image, const Pixels& ellipses, const Pixels& board) {
-  Pixels middles = ellipses;
+SeenCircles circleMiddles(const cv::Mat& image, const Pixels& ellipses, const Pixels& board) {
+  SeenCircles seen{.middles = ellipses};
   for (int round = 0; round < kRounds; ++round) {
-    const std::optional<Eigen::Matrix3d> homography = homographyOf(board, middles);
-    if (!homography) return ellipses;
-    const double radius = radiusOf(image, *homography, board);
-    for (std::size_t i = 0; i < middles.size(); ++i) {
-      const Eigen::Vector2d off = eccentricity(*homography, board[i], radius);
-      middles[i] = ellipses[i] - cv::Point2f(static_cast<float>(off.x()), static_cast<float>(off.y()));
+    const std::optional<Eigen::Matrix3d> homography = homographyOf(board, seen.middles);
+    if (!homography) return {.middles = ellipses};
+    seen.pixel_from_board = *homography;
+    seen.radius = radiusOf(image, *homography, board);
+    for (std::size_t i = 0; i < ellipses.size(); ++i) {
+      const Eigen::Vector2d off = eccentricity(*homography, board[i], seen.radius);
+      seen.middles[i] = ellipses[i] - cv::Point2f(static_cast<float>(off.x()), static_cast<float>(off.y()));
     }
   }
-  return middles;
+  return seen;
 }
 
 }  // namespace thermovox

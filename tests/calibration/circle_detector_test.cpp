@@ -35,8 +35,8 @@ double rmsOf(RenderedCircles board) {
 TEST(FindCircles, FindsBothPolarities) {
   EXPECT_LT(rmsOf(circlesOf(8.0)), 0.02);
   EXPECT_LT(rmsOf(circlesOf(-8.0)), 0.02);
-  EXPECT_LT(rmsOf(circlesOf(1.5)), 0.04);
-  EXPECT_LT(rmsOf(circlesOf(-1.5)), 0.04);
+  EXPECT_LT(rmsOf(circlesOf(1.5)), 0.03);
+  EXPECT_LT(rmsOf(circlesOf(-1.5)), 0.03);
 }
 
 TEST(FindCircles, TellsTheFirstRowFromTheLastOne) {
@@ -81,16 +81,7 @@ TEST(FindCircles, FindsABoardUnderALampsHotSpot) {
 TEST(FindCircles, FindsSmallCircles) {
   RenderedCircles board = circlesOf(5.0);
   board.pixel_from_board = homographyOf(5.0, 80.0, {105.0, 30.0});
-  EXPECT_LT(rmsOf(board), 0.05);
-}
-
-TEST(FindCircles, SaysHowSureItIs) {
-  const auto middles = findCircles(imageOf(circlesOf(8.0)), kGrid);
-  ASSERT_TRUE(middles);
-  for (const BoardCorner& middle : *middles) {
-    EXPECT_NEAR(std::sqrt(middle.covariance(0, 0)), 0.03, 1e-12);
-    EXPECT_EQ(middle.covariance(0, 1), 0.0);
-  }
+  EXPECT_LT(rmsOf(board), 0.04);
 }
 
 TEST(FindCircles, WithoutAWholeBoardFindsNone) {

@@ -49,13 +49,13 @@ TEST(CircleMiddles, AreNotThoseOfTheEllipses) {
   const Seen seen;
   const BoardImage image = imageOf(seen.board);
   EXPECT_GT(seen.worst(seen.ellipses), 0.15);
-  EXPECT_LT(seen.worst(circleMiddles(asMat(image), seen.ellipses, seen.on_board)), 0.015);
+  EXPECT_LT(seen.worst(circleMiddles(asMat(image), seen.ellipses, seen.on_board).middles), 0.015);
 }
 
 TEST(CircleMiddles, OfAnImageWithoutCirclesStay) {
   const Seen seen;
   const BoardImage plain{160, 120, std::vector<float>(160 * 120, 25.0F)};
-  EXPECT_EQ(circleMiddles(asMat(plain), seen.ellipses, seen.on_board), seen.ellipses);
+  EXPECT_EQ(circleMiddles(asMat(plain), seen.ellipses, seen.on_board).middles, seen.ellipses);
 }
 
 }  // namespace
