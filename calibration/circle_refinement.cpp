@@ -125,17 +125,12 @@ Vector6d startOf(const std::vector<CellPixel>& cell, const Outline& outline, dou
   return unknowns;
 }
 
-}  // namespace
-
-std::optional<BoardCorner> refineCircle(const BoardImage& image, const CircleGuess& guess, double blur_px) {
-  if (!guess.pixel_from_board.allFinite() || !guess.middle.allFinite() || !guess.pixel.allFinite() ||
-      !(guess.radius > 0.0) || !(std::abs(guess.pixel_from_board.determinant()) > 0.0)) {
-    return std::nullopt;
-  }
+/// The fit to the cell as it lies about the guess.
+std::optional<BoardCorner> fitted(const BoardImage& image, const CircleGuess& guess, double blur_px) {
   const Outline outline(guess);
   const std::vector<CellPixel> cell = cellOf(image, guess, outline);
   if (cell.size() < kFewest) return std::nullopt;
-  const double radius_px = std::abs(outline.at(Eigen::Vector2d(1e-3, 0.0)).inside);
+  const double radius_px = outline.at(Eigen::Vector2d(1e-3, 0.0)).inside;
   Vector6d unknowns = startOf(cell, outline, blur_px);
   bool still = false;
   for (int step = 0; step < kSteps && !still; ++step) {
@@ -152,6 +147,20 @@ std::optional<BoardCorner> refineCircle(const BoardImage& image, const CircleGue
   corner.contrast_sigma = 0.5 * std::abs(unknowns[5]) / std::sqrt(std::max(variance, 1e-300));
   if (!still || !corner.covariance.allFinite() || corner.contrast_sigma < kStandsOut) return std::nullopt;
   return corner;
+}
+
+}  // namespace
+
+std::optional<BoardCorner> refineCircle(const BoardImage& image, const CircleGuess& guess, double blur_px) {
+  if (!guess.pixel_from_board.allFinite() || !guess.middle.allFinite() || !guess.pixel.allFinite() ||
+      !(guess.radius > 0.0) || !(std::abs(guess.pixel_from_board.determinant()) > 0.0)) {
+    return std::nullopt;
+  }
+  const std::optional<BoardCorner> first = fitted(image, guess, blur_px);
+  if (!first) return std::nullopt;
+  CircleGuess nearer = guess;  // the cell reaches to the same distance on all sides
+  nearer.pixel = first->pixel;
+  return fitted(image, nearer, blur_px);
 }
 
 }  // namespace thermovox
