@@ -67,6 +67,8 @@ class Outline {
 
 /// Empty where the circle leaves the image.
 std::vector<CellPixel> cellOf(const BoardImage& image, const CircleGuess& guess, const Outline& outline) {
+  const Eigen::Vector2d last(image.width - 1, image.height - 1);
+  if (!(guess.pixel.minCoeff() >= 0.0 && (last - guess.pixel).minCoeff() >= 0.0)) return {};
   // The cell is within the box about its corners, which lie one unit away.
   Eigen::Vector2d low = guess.pixel, high = guess.pixel;
   for (const Eigen::Vector2d& arm : {Eigen::Vector2d(1.0, 0.0), {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}) {

@@ -98,6 +98,8 @@ TEST(RefineCircle, BesideTheImageOrWithoutACircleIsNone) {
   guess = guessOf(board, 1, 5);
   guess.pixel = {std::numeric_limits<double>::quiet_NaN(), 60.0};
   EXPECT_FALSE(refineCircle(image, guess));
+  guess.pixel = {1e15, -1e15};
+  EXPECT_FALSE(refineCircle(image, guess));
   guess = guessOf(board, 0, 0);
   guess.pixel_from_board(0, 2) -= 500.0;  // all of the board is left of the image
   guess.pixel = (guess.pixel_from_board * guess.middle.homogeneous()).hnormalized();
