@@ -12,6 +12,7 @@
 #include "apps/image_info.hpp"
 #include "apps/radiometry_options.hpp"
 #include "apps/verbs.hpp"
+#include "io/capture_folder.hpp"
 #include "io/csv.hpp"
 #include "io/input_file.hpp"
 #include "io/mission_folder.hpp"
@@ -124,10 +125,32 @@ Json missionInfo(const fs::path& thing) {
   return json;
 }
 
+Json boardInfo(const CalibrationBoard& board) {
+  Json json{{"pattern", nameOf(board.pattern)},
+            {"columns", board.columns},
+            {"rows", board.rows},
+            {"square", board.square}};
+  if (board.width > 0.0) json["width"] = board.width;
+  if (board.height > 0.0) json["height"] = board.height;
+  return json;
+}
+
 Json capturesInfo(const fs::path& thing) {
-  const fs::path folder = fs::is_directory(thing) ? thing : thing.parent_path();
-  Json json{{"kind", "captures"}};
-  if (fs::exists(folder / "captures.csv")) json["captures"] = rowsOf(folder / "captures.csv");
+  const CaptureFolder opened = openCaptures(thing);
+  const auto with = [&](std::optional<fs::path> CaptureFiles::*file) {
+    return std::count_if(opened.captures.begin(), opened.captures.end(),
+                         [file](const CaptureFiles& capture) { return (capture.*file).has_value(); });
+  };
+  Json json{{"kind", "captures"},
+            {"name", opened.name},
+            {"captures", opened.captures.size()},
+            {"thermal", with(&CaptureFiles::thermal)},
+            {"visible", with(&CaptureFiles::visible)},
+            {"laser", with(&CaptureFiles::laser)},
+            {"board", boardInfo(opened.board)}};
+  Json rig = rigInfo(opened.rig);
+  rig.erase("kind");
+  json["rig"] = std::move(rig);
   return json;
 }
 

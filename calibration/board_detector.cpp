@@ -1,69 +1,30 @@
 #include "calibration/board_detector.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <string>
+#include <utility>
 
+#include "calibration/grid_search.hpp"
 #include "calibration/local_normalisation.hpp"
-#include "projection/error.hpp"
 
 namespace thermovox {
 namespace {
 
-constexpr double kUsualWidth = 160.0;                    // px, of the images that the widths are for
-constexpr std::array<double, 3> kWidths{4.0, 2.5, 6.0};  // px there: some 0.4 of a square
-constexpr double kMostOff = 0.7;                         // px rms from a plane's grid
-constexpr double kMostBent = 0.015;                      // the same, of the board's diagonal: a lens bends it
-constexpr double kUnrefined = 0.25;                      // px, one sigma of a corner by the search alone
-constexpr double kMostRefined = 0.7;                     // of a board's corners
-constexpr double kAlternating = 0.9;                     // of the neighbouring squares
+constexpr double kUnrefined = 0.25;   // px, one sigma of a corner by the search alone
+constexpr double kMostRefined = 0.7;  // of a board's corners
+constexpr double kAlternating = 0.9;  // of the neighbouring squares
 
-using Pixels = std::vector<cv::Point2f>;
-
-/// How many times an image is enlarged before a grid is sought: small squares are not found otherwise.
-int enlargement(const cv::Mat& image) {
-  return std::clamp(static_cast<int>(std::lround(4.0 * kUsualWidth / image.cols)), 1, 4);
-}
-
-cv::Mat enlarged(const cv::Mat& image, int factor) {
-  if (factor == 1) return image;
-  cv::Mat large;
-  cv::resize(image, large, {}, factor, factor, cv::INTER_CUBIC);
-  return large;
-}
-
-/// A pixel's centre is whole, before and after.
-Pixels reduced(Pixels pixels, int factor) {
-  for (cv::Point2f& pixel : pixels) {
-    pixel = (pixel + cv::Point2f(0.5F, 0.5F)) / static_cast<float>(factor) - cv::Point2f(0.5F, 0.5F);
-  }
-  return pixels;
-}
-
-/// Whether the pixels are the grid of a plane, as far as a lens leaves it one.
-bool isFlat(const Pixels& pixels, const ChessboardGrid& grid) {
+/// The corners on the board, in squares.
+Pixels cornersOnBoard(const ChessboardGrid& grid) {
   Pixels board;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       board.emplace_back(static_cast<float>(column), static_cast<float>(row));
     }
   }
-  const cv::Mat homography = cv::findHomography(board, pixels);
-  if (homography.empty()) return false;
-  Pixels expected;
-  cv::perspectiveTransform(board, expected, homography);
-  double squares = 0.0;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const cv::Point2f off = pixels[i] - expected[i];
-    squares += static_cast<double>(off.dot(off));
-  }
-  const cv::Rect2f box = cv::boundingRect(pixels);
-  const double diagonal = std::hypot(static_cast<double>(box.width), static_cast<double>(box.height));
-  return std::sqrt(squares / static_cast<double>(pixels.size())) < std::max(kMostOff, kMostBent * diagonal);
+  return board;
 }
 
 /// Whether neighbouring squares differ as those of a chessboard, in either polarity.
@@ -140,32 +101,16 @@ std::optional<std::vector<BoardCorner>> cornersOf(const BoardImage& image, const
   return corners;
 }
 
-void check(const BoardImage& image, const ChessboardGrid& grid) {
-  if (grid.columns < 3 || grid.rows < 3) {
-    throw ConfigError("board.inner_corners: found " + std::to_string(grid.columns) + " x " +
-                      std::to_string(grid.rows) + ", expected 3 x 3 or more");
-  }
-  const auto pixels = static_cast<std::size_t>(std::max(image.width, 0)) *
-                      static_cast<std::size_t>(std::max(image.height, 0));
-  if (pixels == 0 || image.values.size() != pixels ||
-      !std::all_of(image.values.begin(), image.values.end(),
-                   [](float value) { return std::isfinite(value); }))
-    throw ConfigError("the image of a board: expected pixels with finite values, as many as its size says");
-}
-
 }  // namespace
 
 std::optional<std::vector<BoardCorner>> findChessboard(const BoardImage& image, const ChessboardGrid& grid) {
-  check(image, grid);
-  const cv::Mat values = asMat(image);
-  const double scale = std::max(1.0, values.cols / kUsualWidth);
-  const cv::Mat usual = locallyNormalised(values, scale * kWidths.front());
-  std::vector<cv::Mat> versions{usual};
-  for (const double width : {kWidths[1], kWidths[2]})
-    versions.push_back(locallyNormalised(values, scale * width));
-  versions.push_back(stretched(values));
+  checkSearch(image, grid.columns, grid.rows);
+  const SearchVersions all = searchVersions(asMat(image));
+  std::vector<cv::Mat> versions = all.normalised;
+  versions.push_back(all.plain);
+  const Pixels board = cornersOnBoard(grid);
   const auto isBoard = [&](const std::optional<Pixels>& pixels) {
-    return pixels && isFlat(*pixels, grid) && alternates(usual, *pixels, grid);
+    return pixels && isFlat(*pixels, board) && alternates(versions.front(), *pixels, grid);
   };
   for (const auto search : {&gridIn, &gridOfOldSearch}) {
     for (const cv::Mat& version : versions) {

@@ -26,8 +26,8 @@ void splitInto(std::vector<std::string_view>& fields, std::string_view line) {
 
 }  // namespace
 
-CsvReader::CsvReader(std::unique_ptr<std::istream> stream, std::string name)
-    : stream_(std::move(stream)), name_(std::move(name)) {}
+CsvReader::CsvReader(std::unique_ptr<std::istream> stream, std::string name, Header header)
+    : stream_(std::move(stream)), name_(std::move(name)), header_possible_(header == Header::pass_over) {}
 
 bool CsvReader::next() {
   while (std::getline(*stream_, line_)) {

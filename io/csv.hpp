@@ -16,8 +16,11 @@ namespace thermovox {
 /// is no quoting.
 class CsvReader {
  public:
+  /// What is done with a first row that begins with a letter: where rows begin with names, it may be none.
+  enum class Header { pass_over, keep };
+
   /// `name` stands for the stream in messages.
-  CsvReader(std::unique_ptr<std::istream> stream, std::string name);
+  CsvReader(std::unique_ptr<std::istream> stream, std::string name, Header header = Header::pass_over);
 
   /// Goes to the next row; false at the end. Throws DataError when the stream breaks.
   [[nodiscard]] bool next();
@@ -39,7 +42,7 @@ class CsvReader {
   std::string name_;
   std::string line_;
   std::size_t line_number_ = 0;
-  bool header_possible_ = true;
+  bool header_possible_;
   std::vector<std::string_view> fields_;
 };
 

@@ -1,12 +1,11 @@
 #include "io/mission_folder.hpp"
 
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
+#include "io/description_file.hpp"
 #include "io/frame_source.hpp"
 #include "io/input_file.hpp"
 #include "io/laser_sources.hpp"
@@ -27,16 +26,6 @@ double notNegative(const YamlMap& map, std::string_view key) {
   const double number = map.numberIf(key).value_or(0.0);
   if (number < 0.0) throw ConfigError(map.place(key) + ": is " + exactText(number) + ", expected 0 or more");
   return number;
-}
-
-/// The name also names the station's file, hence no path in it and nothing that hides the file.
-std::string missionName(const YamlMap& map) {
-  std::string name = map.text("name");
-  if (name.front() == '.' || name.find('/') != std::string::npos || !isPrintableUtf8(name)) {
-    throw ConfigError(map.place("name") + ": found " + inQuotes(name) +
-                      ", expected printable UTF-8 without '/' that does not begin with a dot");
-  }
-  return name;
 }
 
 Duration cameraTimeOffset(const YamlMap& map) {
@@ -61,42 +50,6 @@ RadiometricOverrides radiometry(const YamlMap& map, const std::optional<double>&
     throw ConfigError(map.place("") + ": " + error.what());
   }
   return overrides;
-}
-
-/// A file given as a mission should be a mission.yaml; the other things that one might give are named.
-void refuseOtherKinds(const fs::path& file) {
-  using namespace std::string_view_literals;
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kinds{
-      {{"SQLite format 3\0"sv, "a station"sv},
-       {"#ROSBAG"sv, "a ROS bag (not read yet)"sv},
-       {"# .PCD"sv, "a point cloud"sv},
-       {"ply"sv, "a point cloud"sv},
-       {"II*\0"sv, "a TIFF image"sv},
-       {"MM\0*"sv, "a TIFF image"sv},
-       {"\x89PNG"sv, "a picture"sv},
-       {"\xFF\xD8\xFF"sv, "a picture"sv},
-       {"# Octomap OcTree"sv, "an OctoMap"sv}}};
-  std::string head(64, '\0');
-  std::ifstream stream = openInput(file);
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(stream.gcount()));
-  std::string_view found = head.find('\0') == std::string::npos ? ""sv : "a binary file"sv;
-  for (const auto& [magic, kind] : kinds) {
-    if (head.starts_with(magic)) found = kind;
-  }
-  if (!found.empty()) {
-    throw DataError(file.string() + ": is " + std::string(found) + ", expected a mission folder");
-  }
-}
-
-fs::path missionFile(const fs::path& folder) {
-  std::error_code error;
-  if (fs::is_directory(folder, error)) return folder / "mission.yaml";
-  if (!fs::exists(folder, error)) {
-    throw DataError(folder.string() + ": no such mission, expected a folder with a mission.yaml");
-  }
-  refuseOtherKinds(folder);
-  return folder;
 }
 
 class MissionOpener {
@@ -187,7 +140,8 @@ MissionFile parseMissionFile(const std::string& text, const std::string& file_na
   const YamlMap map = YamlMap::parse(text, file_name);
   map.allow({"name", "rig", "trajectory", "thermal", "visible", "laser", "pose_sigma", "camera_time_offset",
              "ambient", "emissivity", "reflected", "humidity"});
-  MissionFile mission{.name = missionName(map), .rig = map.text("rig"), .trajectory = map.text("trajectory")};
+  MissionFile mission{
+      .name = map.plainName("name"), .rig = map.text("rig"), .trajectory = map.text("trajectory")};
   mission.lasers = map.textOrList("laser");
   if (mission.lasers.empty()) throw ConfigError(map.place("laser") + ": is missing");
   mission.thermal = map.textIf("thermal");
@@ -204,7 +158,7 @@ MissionFile parseMissionFile(const std::string& text, const std::string& file_na
 }
 
 OpenedMission openMission(const fs::path& folder, const MissionOptions& options) {
-  return MissionOpener(missionFile(folder), options).open();
+  return MissionOpener(descriptionFile(folder, "mission.yaml", "mission"), options).open();
 }
 
 }  // namespace thermovox

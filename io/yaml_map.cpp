@@ -136,6 +136,15 @@ std::optional<std::string> YamlMap::textIf(std::string_view key) const {
   return text(key);
 }
 
+std::string YamlMap::plainName(std::string_view key) const {
+  std::string name = text(key);
+  if (name.front() == '.' || name.find('/') != std::string::npos || !isPrintableUtf8(name)) {
+    throw ConfigError(place(key) + ": found " + inQuotes(name) +
+                      ", expected printable UTF-8 without '/' that does not begin with a dot");
+  }
+  return name;
+}
+
 YamlMap YamlMap::map(std::string_view key) const {
   return below(require(key), std::string(key));
 }

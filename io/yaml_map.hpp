@@ -31,6 +31,8 @@ class YamlMap {
   [[nodiscard]] int integer(std::string_view key) const;
   [[nodiscard]] std::string text(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> textIf(std::string_view key) const;
+  /// A text that may also name a file: printable UTF-8 without '/' that does not begin with a dot.
+  [[nodiscard]] std::string plainName(std::string_view key) const;
   [[nodiscard]] YamlMap map(std::string_view key) const;
   [[nodiscard]] std::optional<YamlMap> mapIf(std::string_view key) const;
 

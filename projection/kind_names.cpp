@@ -30,4 +30,8 @@ const char* nameOf(AtmosphereModel model) {
   return model == AtmosphereModel::half ? "half" : "single";
 }
 
+const char* nameOf(CalibrationBoard::Pattern pattern) {
+  return pattern == CalibrationBoard::Pattern::chessboard ? "chessboard" : "asymmetric_circles";
+}
+
 }  // namespace thermovox

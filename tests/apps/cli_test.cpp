@@ -204,8 +204,11 @@ TEST(InfoVerb, TellsEveryKindOfThing) {
   const TestFolder folder;
   flyMission(folder, "hall", LaserKind::scan);
   ASSERT_EQ(thermovox(folder.path(), "map hall --resolution 0.1").code, 0);
-  folder.write("captures/captures.yaml", "name: board\n");
-  folder.write("captures/captures.csv", "thermal,visible,laser\n0_thermal.tiff,,0_cloud.pcd\n");
+  folder.write("captures/captures.yaml",
+               "name: board\ncaptures: captures.csv\nrig: ../hall/rig.yaml\nboard: {pattern: chessboard, "
+               "inner_corners: [9, 6], square: 0.04, width: 0.5, height: 0.4}\n");
+  folder.write("captures/captures.csv",
+               "thermal,visible,laser\n../hall/thermal/000000.tiff,,../hall/scans.csv\n");
   folder.write("flight.bag", "#ROSBAG V2.0\n");
   const nlohmann::json mission = infoOf(folder, "hall");
   EXPECT_EQ(mission.at("kind"), "mission");
@@ -229,7 +232,15 @@ TEST(InfoVerb, TellsEveryKindOfThing) {
   EXPECT_FALSE(station.contains("ok"));
   const nlohmann::json captures = infoOf(folder, "captures");
   EXPECT_EQ(captures.at("kind"), "captures");
+  EXPECT_EQ(captures.at("name"), "board");
   EXPECT_EQ(captures.at("captures"), 1);
+  EXPECT_EQ(captures.at("thermal"), 1);
+  EXPECT_EQ(captures.at("visible"), 0);
+  EXPECT_EQ(captures.at("laser"), 1);
+  EXPECT_EQ(captures.at("board"), nlohmann::json::parse(R"({"pattern": "chessboard", "columns": 9, "rows": 6,
+                                                            "square": 0.04, "width": 0.5, "height": 0.4})"));
+  EXPECT_EQ(captures.at("rig").at("lasers").at(0).at("kind"), "scan");
+  EXPECT_EQ(infoOf(folder, "captures/captures.yaml").at("kind"), "captures");
   EXPECT_EQ(infoOf(folder, "flight.bag").at("kind"), "bag");
 }
 

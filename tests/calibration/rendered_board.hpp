@@ -37,7 +37,8 @@ struct RenderedBoard {
 };
 
 /// Six samples a pixel's edge, the optics' blur over these, their mean.
-[[nodiscard]] inline BoardImage imageOf(const RenderedBoard& board) {
+template <typename Board>
+[[nodiscard]] BoardImage imageOf(const Board& board) {
   constexpr int kFine = 6;
   const Eigen::Matrix3d board_from_pixel = board.pixel_from_board.inverse();
   cv::Mat fine(board.height * kFine, board.width * kFine, CV_64F), seen;

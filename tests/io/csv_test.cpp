@@ -35,6 +35,13 @@ TEST(CsvReader, TakesOneHeaderOnly) {
   EXPECT_THAT(csv.fields(), ElementsAre("c", "d"));
 }
 
+TEST(CsvReader, KeepsAHeaderWhereRowsMayBeginWithLetters) {
+  CsvReader csv(std::make_unique<std::istringstream>("\nname,other\nc,d\n"), "rows.csv",
+                CsvReader::Header::keep);
+  ASSERT_TRUE(csv.next());
+  EXPECT_THAT(csv.fields(), ElementsAre("name", "other"));
+}
+
 TEST(CsvReader, ReadsAFirstRowThatIsNoHeader) {
   CsvReader csv = reader("1,2\nx,y\n");
   ASSERT_TRUE(csv.next());
