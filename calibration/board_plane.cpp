@@ -60,6 +60,34 @@ double robustSigma(const std::vector<Ray>& rays, const Eigen::Vector3d& q) {
   return 1.4826 * *middle;
 }
 
+/// How many times the variance of a fit is larger than that of rays that err independently: those of one
+/// channel of a multi-beam laser err together. The mean square of the channels' means over that within them
+/// (an analysis of variance); 1 where chance explains it, or rays do not come in channels.
+double channelEffect(const std::vector<Ray>& rays, const Eigen::Vector3d& q) {
+  constexpr double kChannel = 0.002;       // radians of elevation between two of them
+  constexpr std::size_t kFewest = 4;       // channels, and rays in each on the average
+  constexpr double kChance = 2.0;          // a ratio that chance makes
+  std::vector<std::pair<double, double>> sorted;  // elevation, residual
+  for (const Ray& ray : rays) sorted.emplace_back(std::asin(ray.direction.z()), residualOf(ray, q));
+  std::sort(sorted.begin(), sorted.end());
+  double between = 0.0, within = 0.0;
+  std::size_t channels = 0;
+  for (std::size_t first = 0, i = 1; i <= sorted.size(); ++i) {
+    if (i < sorted.size() && sorted[i].first - sorted[i - 1].first < kChannel) continue;
+    double mean = 0.0;
+    const auto count = static_cast<double>(i - first);
+    for (std::size_t k = first; k < i; ++k) mean += sorted[k].second / count;
+    for (std::size_t k = first; k < i; ++k) within += std::pow(sorted[k].second - mean, 2);
+    between += count * mean * mean;
+    ++channels;
+    first = i;
+  }
+  if (channels < kFewest || sorted.size() < (kFewest + 1) * channels) return 1.0;
+  const double freedom = static_cast<double>(channels) - 3.0;
+  const double ratio = (between / freedom) / (within / static_cast<double>(sorted.size() - channels));
+  return ratio > kChance ? ratio : 1.0;
+}
+
 /// The rays whose directions lie farthest out: in the middle, then each time the one farthest from those.
 std::vector<std::size_t> spread(const std::vector<Ray>& rays, std::size_t count) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -88,7 +116,7 @@ void decompose(PlaneMoments& moments, const std::vector<Ray>& rays) {
     rows.row(static_cast<Eigen::Index>(i)) << rho * rho * ray.direction.transpose(), 1.0,
         residualOf(ray, moments.inverse_plane);
   }
-  rows /= moments.sigma;
+  rows /= moments.sigma * std::sqrt(moments.channel_effect);
   const Eigen::MatrixXd triangle = Eigen::HouseholderQR<Eigen::MatrixXd>(rows).matrixQR().topRows(5);
   const Eigen::MatrixXd upper = triangle.triangularView<Eigen::Upper>();
   moments.slope = upper.topLeftCorner<4, 4>();
@@ -120,6 +148,7 @@ std::optional<PlaneMoments> planeMoments(const std::vector<Eigen::Vector3d>& ret
   for (const Ray& ray : rays) squares += std::pow(residualOf(ray, *plane), 2);
   const double freedom = kPriorReturns + static_cast<double>(rays.size()) - dimensions;
   moments.sigma = std::sqrt(squares / freedom);
+  moments.channel_effect = kind == LaserKind::cloud ? channelEffect(rays, *plane) : 1.0;
   decompose(moments, rays);
   for (const std::size_t i : spread(rays, static_cast<std::size_t>(dimensions + 1))) {
     moments.corner_rays.push_back(rays[i].direction);

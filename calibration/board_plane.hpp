@@ -25,6 +25,9 @@ struct PlaneMoments {
   int returns = 0;     ///< that are in it
   int outliers = 0;    ///< that are not: more than 3.5 sigmas off
   double sigma = 0.0;  ///< of one range, metres: as they scatter about the plane, and as the rig says
+  /// By how much the variances are larger than by `sigma` alone: rays of one channel of a multi-beam laser err
+  /// together. 1 where each errs by itself.
+  double channel_effect = 1.0;
   /// Some of the rays (unit) that are in it, as far from each other as they get, and the ranges of the plane
   /// there (metres).
   std::vector<Eigen::Vector3d> corner_rays;

@@ -31,6 +31,39 @@ std::vector<double> residualsOf(const Linearisation& linear, RowGroup::Kind kind
   return residuals;
 }
 
+/// What the sides of the boards err by together, so that their offsets are as far off as expected: the root of
+/// sum(m^2 / (v + sigma^2)) = n, with the offset m of a side and its variance v from its crossings alone.
+double edgeOffsetSigma(const BundleData& data, const Linearisation& linear, const BundleModel& model) {
+  constexpr double kMost = 0.05;  // metres
+  std::vector<std::pair<double, double>> sides;  // m^2, v
+  for (const RowGroup& group : linear.groups) {
+    if (group.kind != RowGroup::Kind::edges) continue;
+    int row = group.first;
+    for (const EdgeSide& side : data.captures[static_cast<std::size_t>(group.capture)].edges) {
+      double weight = 0.0, along = 0.0;  // of r in the sigmas of the crossings, whitening undone
+      for (const EdgeCrossing& crossing : side.crossings) {
+        weight += 1.0 / (crossing.sigma * crossing.sigma);
+        along += linear.residuals[row++] * model.edge_factor / crossing.sigma;
+      }
+      const double offset = std::hypot(side.offset_sigma, model.edge_offset_sigma / model.edge_factor);
+      const double mean = along / weight * std::hypot(1.0, offset * std::sqrt(weight));
+      const double own = 1.0 / weight + side.offset_sigma * side.offset_sigma;
+      sides.emplace_back(mean * mean, model.edge_factor * model.edge_factor * own);
+    }
+  }
+  constexpr double kUnknowns = 7.0;  // that the edges have a say in
+  const double expected = static_cast<double>(sides.size()) - kUnknowns;
+  const auto excess = [&](double sigma) {
+    double sum = 0.0;
+    for (const auto& [square, variance] : sides) sum += square / (variance + sigma * sigma);
+    return sum - expected;
+  };
+  if (expected < 4.0 || excess(0.0) <= 2.0 * std::sqrt(2.0 * expected)) return 0.0;  // chance explains it
+  double low = 0.0, high = kMost;
+  while (high - low > 1e-6) (excess(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+  return high;
+}
+
 /// Planes that do not fit although each fits its own returns: their factor, where chance does not explain it.
 double planeFactor(const Linearisation& linear, const Eigen::MatrixXd& covariance, double now) {
   constexpr double kUnlikely = 0.05;
@@ -111,6 +144,7 @@ BundleFit fitWithNoise(const BundleData& data, const RigEstimate& start, BundleM
     model.edge_factor *= varianceFactor(
         linear, covariance, [](const RowGroup& group) { return group.kind == RowGroup::Kind::edges; });
     if (linear.layout.laser >= 0) {
+      model.edge_offset_sigma = edgeOffsetSigma(data, linear, model);
       model.range_bias_sigma = rangeBiasSigma(linear, fit.estimate.range_bias, model.range_bias_sigma);
       model.plane_factor = planeFactor(linear, covariance, model.plane_factor);
     }

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "calibration/plane_residual.hpp"
@@ -80,6 +81,7 @@ class Bundle {
   void addCorners(std::size_t capture, int camera);
   void addPlane(std::size_t capture);
   void addEdges(std::size_t capture);
+  [[nodiscard]] EdgeSide widened(EdgeSide side) const;
   void addSharedPriors();
   void setManifolds();
   void setLayout();
@@ -185,10 +187,15 @@ void Bundle::addPlane(std::size_t capture) {
   add<PriorResidual, 1, 1>(PriorResidual{model_.range_bias_sigma}, bias);
 }
 
+EdgeSide Bundle::widened(EdgeSide side) const {
+  side.offset_sigma = std::hypot(side.offset_sigma, model_.edge_offset_sigma / model_.edge_factor);
+  return side;
+}
+
 void Bundle::addEdges(std::size_t capture) {
   for (const EdgeSide& side : data_.captures[capture].edges) {
     using Cost = ceres::DynamicAutoDiffCostFunction<EdgeResidual, 15>;
-    auto cost = std::make_unique<Cost>(new EdgeResidual{side, model_.edge_factor});
+    auto cost = std::make_unique<Cost>(new EdgeResidual{widened(side), model_.edge_factor});
     for (const int size : {7, 7, 1}) cost->AddParameterBlock(size);
     cost->SetNumResiduals(static_cast<int>(side.crossings.size()));
     rows_ += cost->num_residuals();

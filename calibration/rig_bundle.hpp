@@ -50,9 +50,10 @@ struct BundleModel {
   std::vector<double> corner_factor;  ///< of each camera: what its corners' sigmas are to be multiplied by
   double edge_factor = 1.0;           ///< likewise of edges
   double plane_factor = 1.0;          ///< likewise of ranges
+  double edge_offset_sigma = 0.0;     ///< what all crossings of one side err by together, metres
   double range_bias_sigma = 0.005;    ///< of one capture, metres
   double common_range_bias_sigma = 0.0;  ///< of all ranges, metres; 0: there is none
-  double edge_bias_sigma = 0.005;        ///< metres
+  double edge_bias_sigma = 0.010;        ///< metres
   enum class Loss { none, huber };
   Loss corner_loss = Loss::none;  ///< Huber's at two sigmas
   int threads = 1;
