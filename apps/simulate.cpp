@@ -232,7 +232,8 @@ void addSimulate(CLI::App& app) {
   verb->add_option("OUT", args->out, "Folder to write")->required();
   addChoice(*verb, "--laser", options.laser, kLaserKinds, "Kind of laser: beam (1D), scan (2D) or cloud (3D)")
       ->required();
-  verb->add_option("--seed", options.seed, "Of hall, flight and noise: same seed, same bytes")
+  verb->add_option("--seed", options.seed,
+                   "Of all that is drawn, such as hall, flight and noise: same seed, same bytes")
       ->capture_default_str();
   verb->add_option("--netd", options.netd, "Noise of a thermal pixel, one sigma [C]")->capture_default_str();
   verb->add_option("--blur", options.blur_px, "Optics and pixel together, one sigma [px]")

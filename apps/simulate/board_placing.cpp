@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "apps/simulate/mounting.hpp"
 #include "apps/simulate/random.hpp"
@@ -10,8 +11,11 @@
 namespace thermovox::simulate {
 namespace {
 
-constexpr double kNearest = 0.5;        // metres
-constexpr double kFarthest = 1.2;       // metres: squares of 5 thermal pixels
+constexpr double kNearest = 0.5;   // metres
+constexpr double kFarthest = 1.2;  // metres: squares of 5 thermal pixels
+// Of 576 boards drawn without this rule findChessboard() found all 449 above it and 98 of the 127 below; of
+// as many drawn with it, all but four.
+constexpr double kShortestSidePx = 4.2;
 constexpr double kBeamInside = 0.03;    // metres
 constexpr double kShortestChord = 0.1;  // metres
 constexpr double kSeenMotion = 0.02;    // metres
@@ -96,9 +100,7 @@ bool BoardPlacing::inImage(const Camera& camera, const Pose& T_camera_board, dou
   for (int row = -1; row <= board_.rows; ++row) {
     const bool whole_row = row == -1 || row == board_.rows;
     for (int column = -1; column <= board_.columns; column += whole_row ? 1 : board_.columns + 1) {
-      const Eigen::Vector3d p_board(board_.square * (column - 0.5 * (board_.columns - 1)),
-                                    board_.square * (row - 0.5 * (board_.rows - 1)), 0.0);
-      const auto pixel = camera.projectUnbounded(T_camera_board * p_board);
+      const auto pixel = camera.projectUnbounded(T_camera_board * cornerAt(column, row));
       if (!pixel || pixel->minCoeff() < border_px || pixel->x() > camera.width() - 1 - border_px ||
           pixel->y() > camera.height() - 1 - border_px)
         return false;
@@ -107,10 +109,33 @@ bool BoardPlacing::inImage(const Camera& camera, const Pose& T_camera_board, dou
   return true;
 }
 
+/// Of the sides of all squares between inner corners, as the camera sees them, px.
+double BoardPlacing::shortestSide(const Camera& camera, const Pose& T_camera_board) const {
+  const auto pixelOf = [&](int column, int row) {
+    return camera.projectUnbounded(T_camera_board * cornerAt(column, row)).value_or(Eigen::Vector2d::Zero());
+  };
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int row = 0; row < board_.rows; ++row) {
+    for (int column = 0; column < board_.columns; ++column) {
+      const Eigen::Vector2d pixel = pixelOf(column, row);
+      if (column > 0) shortest = std::min(shortest, (pixel - pixelOf(column - 1, row)).norm());
+      if (row > 0) shortest = std::min(shortest, (pixel - pixelOf(column, row - 1)).norm());
+    }
+  }
+  return shortest;
+}
+
+Eigen::Vector3d BoardPlacing::cornerAt(int column, int row) const {
+  return {board_.square * (column - 0.5 * (board_.columns - 1)),
+          board_.square * (row - 0.5 * (board_.rows - 1)), 0.0};
+}
+
 bool BoardPlacing::inImages(const Pose& T_body_board) const {
   const ThermalCamera& thermal = *rig_.thermal_camera;
   const MountedCamera& visible = *rig_.visible_camera;
-  return inImage(thermal.camera, thermal.T_body_camera.inverse() * T_body_board, 2.0) &&
+  const Pose T_thermal_board = thermal.T_body_camera.inverse() * T_body_board;
+  return inImage(thermal.camera, T_thermal_board, 2.0) &&
+         shortestSide(thermal.camera, T_thermal_board) >= kShortestSidePx &&
          inImage(visible.camera, visible.T_body_camera.inverse() * T_body_board, 10.0);
 }
 

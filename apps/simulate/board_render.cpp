@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/simulate/parallel.hpp"
+
 namespace thermovox::simulate {
 namespace {
 
@@ -108,20 +110,20 @@ Eigen::Matrix3f planeFromRay(const Pose& T_camera_board) {
 
 }  // namespace
 
-BoardRenderer::BoardRenderer(const Camera& camera, int cells_per_pixel, double blur_px)
+BoardRenderer::BoardRenderer(const Camera& camera, int cells_per_pixel, double blur_px, unsigned threads)
     : cells_per_pixel_(cells_per_pixel),
       columns_(camera.width() * cells_per_pixel),
       rows_(camera.height() * cells_per_pixel),
       kernel_(opticsKernel(blur_px, cells_per_pixel)) {
-  rays_.reserve(static_cast<std::size_t>(columns_ + 1) * static_cast<std::size_t>(rows_ + 1));
-  const auto pixelOf = [&](int cell) { return static_cast<double>(cell) / cells_per_pixel - 0.5; };
-  for (int row = 0; row <= rows_; ++row) {
-    for (int column = 0; column <= columns_; ++column) {
+  const auto width = static_cast<std::size_t>(columns_) + 1;
+  rays_.resize(width * (static_cast<std::size_t>(rows_) + 1), Eigen::Vector2f(kNoPlace, kNoPlace));
+  const auto pixelOf = [&](std::size_t cell) { return static_cast<double>(cell) / cells_per_pixel - 0.5; };
+  forEachIndex(rays_.size() / width, threads, [&](std::size_t row) {
+    for (std::size_t column = 0; column < width; ++column) {
       const auto ray = camera.rayFromPixel({pixelOf(column), pixelOf(row)});
-      rays_.push_back(ray ? Eigen::Vector2f(ray->head<2>().cast<float>())
-                          : Eigen::Vector2f(kNoPlace, kNoPlace));
+      if (ray) rays_[row * width + column] = ray->head<2>().cast<float>();
     }
-  }
+  });
 }
 
 BoardRenderer::Places BoardRenderer::placesOf(int row, const Eigen::Matrix3f& plane_from_ray) const {

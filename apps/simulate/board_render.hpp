@@ -24,7 +24,8 @@ using BoardPaint = std::function<float(BoardPart part, const Eigen::Vector2f& pl
 class BoardRenderer {
  public:
   /// blur_px: optics and pixel together, one sigma of a Gaussian; no less than the pixel's own 0.29.
-  BoardRenderer(const Camera& camera, int cells_per_pixel, double blur_px);
+  /// `threads` look up the rays.
+  BoardRenderer(const Camera& camera, int cells_per_pixel, double blur_px, unsigned threads);
 
   /// Row by row, without noise. The top left square is a dark one.
   [[nodiscard]] std::vector<float> render(const CalibrationBoard& board, const Pose& T_camera_board,

@@ -46,8 +46,9 @@ float greyOf(BoardPart part, const Eigen::Vector2f& place) {
 
 CaptureRenderer::CaptureRenderer(const CaptureScene& scene)
     : scene_(scene),
-      thermal_(scene.trueRig().thermal_camera->camera, kThermalCells, scene.options().blur_px),
-      visible_(scene.trueRig().visible_camera->camera, 1, kVisibleBlur) {}
+      thermal_(scene.trueRig().thermal_camera->camera, kThermalCells, scene.options().blur_px,
+               scene.options().threads),
+      visible_(scene.trueRig().visible_camera->camera, 1, kVisibleBlur, scene.options().threads) {}
 
 std::vector<std::uint16_t> CaptureRenderer::thermalCounts(std::size_t capture) const {
   const ThermalCamera& camera = *scene_.trueRig().thermal_camera;
