@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/simulate/capture_rig.hpp"
 #include "apps/simulate/mounting.hpp"
 #include "apps/simulate/random.hpp"
 #include "projection/error.hpp"
@@ -43,7 +44,7 @@ Pose drawUntil(Random& random, const Draw& draw, const Accept& accept) {
   for (int i = 0; i < kDistances; ++i) {
     const double distance = random.uniform(kNearest, kFarthest);
     for (int j = 0; j < kTriesAtDistance; ++j) {
-      const Pose pose = draw(distance);
+      Pose pose = draw(distance);
       if (accept(pose)) return pose;
     }
   }
@@ -141,8 +142,9 @@ bool BoardPlacing::inImages(const Pose& T_body_board) const {
 
 bool BoardPlacing::underScan(const Pose& T_board_laser) const {
   const Laser& laser = rig_.lasers.front();
-  Eigen::AlignedBox2d chord;
-  for (double angle = -90.0 * kDegree; angle < 90.0 * kDegree; angle += laser.angle_increment) {
+  Eigen::AlignedBox2d chord;  // its diagonal is one, as the points of a sweep lie on a line
+  for (int i = 0; i < kCaptureScanReadings; ++i) {
+    const double angle = laser.angle_min + i * laser.angle_increment;
     const auto hit = meetPlane(T_board_laser, {std::cos(angle), std::sin(angle), 0.0});
     if (hit && std::abs(hit->place.x()) <= 0.5 * board_.width &&
         std::abs(hit->place.y()) <= 0.5 * board_.height)

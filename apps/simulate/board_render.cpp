@@ -84,8 +84,9 @@ float meanOf(const Quad& quad, const Regions& regions, const BoardPaint& paint) 
   if (whole) return paint(regions.part(region), 0.25F * (quad[0] + quad[1] + quad[2] + quad[3]));
   float sum = 0.0F;
   for (int i = 0; i < kSamples * kSamples; ++i) {
-    const float x = (static_cast<float>(i % kSamples) + 0.5F) / kSamples;
-    const float y = (static_cast<float>(i / kSamples) + 0.5F) / kSamples;
+    const int column = i % kSamples, row = i / kSamples;
+    const float x = (static_cast<float>(column) + 0.5F) / kSamples;
+    const float y = (static_cast<float>(row) + 0.5F) / kSamples;
     const Eigen::Vector2f upper = quad[0] + x * (quad[1] - quad[0]);
     const Eigen::Vector2f lower = quad[2] + x * (quad[3] - quad[2]);
     const Eigen::Vector2f place = upper + y * (lower - upper);
@@ -141,22 +142,21 @@ BoardRenderer::Places BoardRenderer::placesOf(int row, const Eigen::Matrix3f& pl
 std::vector<float> BoardRenderer::blurred(const std::vector<float>& cells) const {
   const auto reach = static_cast<int>(kernel_.size() / 2);
   std::vector<float> across(cells.size()), result(cells.size());
-  const auto at = [&](int row) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_); };
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       float sum = 0.0F;
-      for (int i = -reach; i <= reach; ++i) {
-        const int from = std::clamp(column + i, 0, columns_ - 1);
-        sum += kernel_[static_cast<std::size_t>(i + reach)] * cells[at(row) + static_cast<std::size_t>(from)];
+      for (int i = 0; i <= 2 * reach; ++i) {
+        const int from = std::clamp(column + i - reach, 0, columns_ - 1);
+        sum += kernel_[static_cast<std::size_t>(i)] * cells[at(row, from)];
       }
-      across[at(row) + static_cast<std::size_t>(column)] = sum;
+      across[at(row, column)] = sum;
     }
   }
   for (int row = 0; row < rows_; ++row) {
-    for (int i = -reach; i <= reach; ++i) {
-      const float weight = kernel_[static_cast<std::size_t>(i + reach)];
-      const float* from = across.data() + at(std::clamp(row + i, 0, rows_ - 1));
-      float* to = result.data() + at(row);
+    for (int i = 0; i <= 2 * reach; ++i) {
+      const float weight = kernel_[static_cast<std::size_t>(i)];
+      const float* from = across.data() + at(std::clamp(row + i - reach, 0, rows_ - 1), 0);
+      float* to = result.data() + at(row, 0);
       for (int column = 0; column < columns_; ++column) to[column] += weight * from[column];
     }
   }
@@ -165,16 +165,15 @@ std::vector<float> BoardRenderer::blurred(const std::vector<float>& cells) const
 
 std::vector<float> BoardRenderer::pixelsOf(const std::vector<float>& cells) const {
   if (cells_per_pixel_ == 1) return cells;
-  const int width = columns_ / cells_per_pixel_;
-  std::vector<float> pixels(static_cast<std::size_t>(width) *
-                            static_cast<std::size_t>(rows_ / cells_per_pixel_));
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      const int pixel = row / cells_per_pixel_ * width + column / cells_per_pixel_;
-      pixels[static_cast<std::size_t>(pixel)] += cells[static_cast<std::size_t>(row * columns_ + column)];
+  std::vector<float> pixels;
+  for (int top = 0; top < rows_; top += cells_per_pixel_) {
+    for (int left = 0; left < columns_; left += cells_per_pixel_) {
+      float sum = 0.0F;
+      for (int row = top; row < top + cells_per_pixel_; ++row)
+        for (int column = left; column < left + cells_per_pixel_; ++column) sum += cells[at(row, column)];
+      pixels.push_back(sum / static_cast<float>(cells_per_pixel_ * cells_per_pixel_));
     }
   }
-  for (float& pixel : pixels) pixel /= static_cast<float>(cells_per_pixel_ * cells_per_pixel_);
   return pixels;
 }
 

@@ -35,6 +35,10 @@ class BoardRenderer {
   using Places = std::vector<Eigen::Vector2f>;
   /// Where the rays of one row of the cells' corners meet the board's plane; NaN where they do not.
   [[nodiscard]] Places placesOf(int row, const Eigen::Matrix3f& plane_from_ray) const;
+  [[nodiscard]] std::size_t at(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
   [[nodiscard]] std::vector<float> blurred(const std::vector<float>& cells) const;
   [[nodiscard]] std::vector<float> pixelsOf(const std::vector<float>& cells) const;
 

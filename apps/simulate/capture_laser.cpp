@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kBeamReadings = 100;
 constexpr int kSweeps = 20;
-constexpr int kCloudRows = 121;
-constexpr int kCloudColumns = 267;
+constexpr int kCloudUp = 60;      // rows above and below the middle one
+constexpr int kCloudAside = 133;  // columns beside it
 constexpr float kIntensity = 150.0F;
 
 /// One capture every ten seconds.
@@ -77,10 +77,10 @@ std::vector<CaptureSweep> measureScans(const CaptureScene& scene, std::size_t ca
 std::vector<CloudPoint> measureCloud(const CaptureScene& scene, std::size_t capture) {
   CaptureCaster caster(scene, capture);
   std::vector<CloudPoint> points;
-  for (int row = 0; row < kCloudRows; ++row) {
-    const double elevation = 0.5 * kDegree * (row - kCloudRows / 2);
-    for (int column = 0; column < kCloudColumns; ++column) {
-      const double azimuth = 0.45 * kDegree * (column - kCloudColumns / 2);
+  for (int row = -kCloudUp; row <= kCloudUp; ++row) {
+    const double elevation = 0.5 * kDegree * row;
+    for (int column = -kCloudAside; column <= kCloudAside; ++column) {
+      const double azimuth = 0.45 * kDegree * column;
       const Eigen::Vector3d d_laser(std::cos(elevation) * std::cos(azimuth),
                                     std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       points.push_back({(caster.range(d_laser) * d_laser).cast<float>(), kIntensity});
