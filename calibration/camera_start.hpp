@@ -26,6 +26,6 @@ struct CameraStart {
 /// 2000), also from nothing; the better fit counts. Which side of a symmetric board a view begins with is what
 /// most captures agree on; where they cannot tell, what the input's poses say.
 /// Throws UnobservableError where no capture has a view of the reference camera.
-[[nodiscard]] CameraStart startCameras(const CalibrationInput& input, int threads);
+[[nodiscard]] CameraStart startCameras(const CalibrationInput& input);
 
 }  // namespace thermovox

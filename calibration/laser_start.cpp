@@ -250,13 +250,6 @@ std::optional<LaserStart> bestLinear(const Start& start, const std::vector<Laser
   return best;
 }
 
-/// A beam's answer with the roll of the guess: the smallest rotation from it that points the same way.
-Pose withRollOf(const Pose& guess, const Pose& pose) {
-  const Eigen::Vector3d from = guess.rotation * Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d to = pose.rotation * Eigen::Vector3d::UnitX();
-  return {(Eigen::Quaterniond::FromTwoVectors(from, to) * guess.rotation).normalized(), pose.translation};
-}
-
 /// How differently two poses point: a beam's roll does not count.
 double turnApart(LaserKind kind, const Pose& a, const Pose& b) {
   if (kind != LaserKind::beam) return a.rotation.angularDistance(b.rotation);
@@ -265,6 +258,12 @@ double turnApart(LaserKind kind, const Pose& a, const Pose& b) {
 }
 
 }  // namespace
+
+Pose withRollOf(const Pose& guess, const Pose& pose) {
+  const Eigen::Vector3d from = guess.rotation * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d to = pose.rotation * Eigen::Vector3d::UnitX();
+  return {(Eigen::Quaterniond::FromTwoVectors(from, to) * guess.rotation).normalized(), pose.translation};
+}
 
 std::optional<LaserStart> startLaser(const std::vector<LaserSight>& sights, LaserKind kind, const Pose& guess,
                                      const Eigen::Vector2d& plate) {

@@ -84,9 +84,9 @@ double planeFactor(const Linearisation& linear, const Eigen::MatrixXd& covarianc
 
 }  // namespace
 
-int dropCornerOutliers(BundleData& data, const RigEstimate& estimate, const BundleModel& model) {
+std::vector<int> dropCornerOutliers(BundleData& data, const RigEstimate& estimate, const BundleModel& model) {
   const Linearisation linear = linearise(data, estimate, model);
-  int dropped = 0;
+  std::vector<int> dropped(estimate.cameras.size(), 0);
   std::vector<double> gates;
   for (int camera = 0; camera < static_cast<int>(estimate.cameras.size()); ++camera) {
     const std::vector<double> residuals = residualsOf(linear, RowGroup::Kind::corners, camera);
@@ -102,7 +102,7 @@ int dropCornerOutliers(BundleData& data, const RigEstimate& estimate, const Bund
       row += 2;
       return linear.residuals.segment<2>(row - 2).cwiseAbs().maxCoeff() > gate;
     });
-    dropped += static_cast<int>(corners.end() - kept);
+    dropped[static_cast<std::size_t>(group.camera)] += static_cast<int>(corners.end() - kept);
     corners.erase(kept, corners.end());
   }
   return dropped;

@@ -285,7 +285,7 @@ BundleFit Bundle::solve() {
   options.max_num_iterations = kMostIterations;
   options.function_tolerance = 1e-10;
   options.parameter_tolerance = 1e-10;
-  options.num_threads = model_.threads;
+  options.num_threads = 1;  // the same sums in the same order on every machine
   options.logging_type = ceres::SILENT;
   options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   std::vector<double*> all;
@@ -305,7 +305,6 @@ Linearisation Bundle::linearise() {
   options.residual_blocks = blocks_;
   options.parameter_blocks = parameters_;
   options.apply_loss_function = false;
-  options.num_threads = model_.threads;
   Linearisation result;
   std::vector<double> residuals;
   ceres::CRSMatrix crs;

@@ -56,7 +56,6 @@ struct BundleModel {
   double edge_bias_sigma = 0.010;        ///< metres
   enum class Loss { none, huber };
   Loss corner_loss = Loss::none;  ///< Huber's at two sigmas
-  int threads = 1;
 };
 
 struct BundleFit {

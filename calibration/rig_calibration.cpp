@@ -25,6 +25,12 @@ constexpr double kSlack = 0.03;        // metres off the plane, and five sigmas 
 constexpr double kWellExplained = 0.3; // mean cost of a start, 0 to 1, that needs no wider search
 constexpr int kLaserRounds = 3;        // of extraction and bundle
 
+/// Where a ray of the laser meets the board of a capture, metres.
+double rangeOf(const RigEstimate& estimate, std::size_t capture, const Eigen::Vector3d& ray_laser) {
+  const Pose T_board_laser = estimate.T_reference_board[capture].inverse() * estimate.T_reference_laser;
+  return -T_board_laser.translation.z() / (T_board_laser.rotation * ray_laser).z();
+}
+
 class Calibrator {
  public:
   Calibrator(const CalibrationInput& input, const CalibrationOptions& options)
@@ -44,6 +50,7 @@ class Calibrator {
   void takePlanes(const RigEstimate& estimate, bool with_edges);
   void dropCaptures(const CaptureSelection& selection);
   void refuseLaser(const std::string& reason);
+  void measureResiduals();
   void judge();
   void judgeCameras(const Linearisation& linear, const Eigen::MatrixXd& covariance);
   void judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& covariance);
@@ -59,7 +66,7 @@ class Calibrator {
 
 void Calibrator::startFromCameras() {
   tell("cameras", 0.0);
-  CameraStart start = startCameras(input_, options_.threads);
+  CameraStart start = startCameras(input_);
   result_.estimate = std::move(start.estimate);
   result_.captures = std::move(start.captures);
   result_.dropped = std::move(start.dropped);
@@ -68,7 +75,6 @@ void Calibrator::startFromCameras() {
     data_.laser = input_.laser->kind;
     model_.common_range_bias_sigma = input_.laser->range_bias_sigma;
   }
-  model_.threads = options_.threads;
   std::vector<std::size_t> views(input_.cameras.size(), 0);
   for (const BoardCapture& capture : result_.captures) {
     CaptureObservations seen;
@@ -92,7 +98,8 @@ void Calibrator::fitCameras() {
   tell("cameras", 0.5);
   model_.corner_loss = BundleModel::Loss::huber;
   BundleFit fit = solveBundle(data_, result_.estimate, model_);
-  dropCornerOutliers(data_, fit.estimate, model_);
+  const std::vector<int> outliers = dropCornerOutliers(data_, fit.estimate, model_);
+  for (std::size_t i = 0; i < outliers.size(); ++i) result_.cameras[i].corner_outliers = outliers[i];
   model_.corner_loss = BundleModel::Loss::none;
   fit = fitWithNoise(data_, fit.estimate, model_);
   result_.estimate = fit.estimate;
@@ -175,6 +182,8 @@ void Calibrator::calibrateLaser() {
   counts_.assign(planes_.size(), true);
   RigEstimate estimate = result_.estimate;
   estimate.T_reference_laser = start->T_reference_laser;
+  if (data_.laser == LaserKind::beam)
+    estimate.T_reference_laser = withRollOf(input_.laser->T_reference_laser, start->T_reference_laser);
   for (int round = 0; round < kLaserRounds; ++round) {
     tell("laser", static_cast<double>(round) / kLaserRounds);
     takePlanes(estimate, round > 0);
@@ -194,6 +203,9 @@ void Calibrator::calibrateLaser() {
   BundleFit fit = fitWithNoise(data_, estimate, model_);
   if (dropEdgeOutliers(data_, fit.estimate, model_) > 0) fit = fitWithNoise(data_, fit.estimate, model_);
   result_.estimate = fit.estimate;
+  if (data_.laser == LaserKind::beam)
+    result_.estimate.T_reference_laser =
+        withRollOf(input_.laser->T_reference_laser, result_.estimate.T_reference_laser);
 }
 
 void Calibrator::dropCaptures(const CaptureSelection& selection) {
@@ -252,12 +264,43 @@ void Calibrator::judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& 
   describe(*result_.laser, data_, result_.estimate);
 }
 
+/// What is left of the corners and the returns beside the estimate.
+void Calibrator::measureResiduals() {
+  const std::vector<Eigen::Vector3d>& points = data_.points;
+  std::vector<double> squares(result_.cameras.size(), 0.0);
+  double returns = 0.0, off = 0.0;
+  for (std::size_t i = 0; i < data_.captures.size(); ++i) {
+    const Pose& board = result_.estimate.T_reference_board[i];
+    for (const CornerObservation& corner : data_.captures[i].corners) {
+      const auto camera = static_cast<std::size_t>(corner.camera);
+      const Eigen::Vector3d p = result_.estimate.T_camera_reference[camera] *
+                                (board * points[static_cast<std::size_t>(corner.point)]);
+      const Intrinsics& lens = result_.estimate.cameras[camera];
+      squares[camera] +=
+          (pixelFromCamera<double>(lens.model, lens.parameters.data(), p) - corner.pixel).squaredNorm();
+      ++result_.cameras[camera].corners;
+    }
+    if (!data_.captures[i].plane) continue;
+    const PlaneMoments& plane = *data_.captures[i].plane;
+    double shift = 0.0;
+    for (std::size_t k = 0; k < plane.corner_rays.size(); ++k)
+      shift += std::pow(rangeOf(result_.estimate, i, plane.corner_rays[k]) - plane.corner_ranges[k], 2);
+    shift /= static_cast<double>(plane.corner_rays.size());
+    off += plane.returns * (plane.sigma * plane.sigma + shift);
+    returns += plane.returns;
+  }
+  for (std::size_t camera = 0; camera < squares.size(); ++camera)
+    result_.cameras[camera].rms_px = std::sqrt(squares[camera] / std::max(1, result_.cameras[camera].corners));
+  result_.rms_mm = 1e3 * std::sqrt(off / std::max(1.0, returns));
+}
+
 void Calibrator::judge() {
   tell("verdict", 0.0);
   const Linearisation linear = linearise(data_, result_.estimate, model_);
   const JointCovariance joint = jointCovariance(linear);
   judgeCameras(linear, joint.covariance);
   if (result_.laser && result_.laser->reason.empty()) judgeLaser(linear, joint.covariance);
+  measureResiduals();
   result_.range_bias_sigma = model_.range_bias_sigma;
   result_.data = data_;
 }
@@ -265,7 +308,13 @@ void Calibrator::judge() {
 RigCalibration Calibrator::run() {
   startFromCameras();
   fitCameras();
-  if (input_.laser) calibrateLaser();
+  if (input_.laser) {
+    calibrateLaser();
+  } else {
+    for (std::size_t i = 0; i < data_.captures.size(); ++i) {
+      if (!data_.captures[i].corners.empty()) result_.used.push_back(result_.captures[i].name);
+    }
+  }
   judge();
   return std::move(result_);
 }

@@ -12,7 +12,6 @@
 namespace thermovox {
 
 struct CalibrationOptions {
-  int threads = 1;  ///< the result does not depend on it
   /// Hears what is being done and how much of it is (0 to 1); may be empty.
   std::function<void(const std::string& stage, double done)> progress;
 };
