@@ -85,7 +85,7 @@ double widestGap(std::vector<double> values) {
 }
 
 /// How well the points fill a rectangle of the plate's size: 0 not at all, at most 1.
-double likeness(const FlatPiece& piece, const Eigen::Vector2d& plate) {
+double likeness(const FlatPiece& piece, const SoughtPlate& plate) {
   if (piece.points.size() < kFewest) return 0.0;
   const Eigen::Vector3d x = piece.normal.unitOrthogonal(), y = piece.normal.cross(x);
   std::vector<cv::Point2f> flat, hull;
@@ -106,13 +106,13 @@ double likeness(const FlatPiece& piece, const Eigen::Vector2d& plate) {
   std::array<std::pair<double, double>, 2> sides{
       {{box.size.width, widestGap(std::move(along))}, {box.size.height, widestGap(std::move(across))}}};
   std::sort(sides.begin(), sides.end());
-  const std::array<double, 2> wanted{plate.minCoeff(), plate.maxCoeff()};
+  const std::array<double, 2> wanted{plate.sides.minCoeff(), plate.sides.maxCoeff()};
   double worst = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto [side, gap] = sides[i];
     if (gap > 0.35 * wanted[i]) return 0.0;
     // The outermost lines of the laser are up to a gap within the edges.
-    const double off = std::max(side - wanted[i], wanted[i] - side - 1.5 * gap);
+    const double off = std::max(side - plate.most * wanted[i], wanted[i] - side - 1.5 * gap);
     worst = std::max(worst, off / (kSize * wanted[i]));
   }
   return std::max(0.0, 1.0 - worst);
@@ -134,8 +134,8 @@ void keepApart(std::vector<Candidate>& candidates, Candidate candidate, double a
 
 }  // namespace
 
-std::vector<Points> boardsInCloud(const Points& returns_laser, const Eigen::Vector2d& plate) {
-  const double radius = 0.5 * plate.norm() * (1.0 + kSize);
+std::vector<Points> boardsInCloud(const Points& returns_laser, const SoughtPlate& plate) {
+  const double radius = 0.5 * plate.most * plate.sides.norm() * (1.0 + kSize);
   std::mt19937_64 random(1);
   std::vector<Candidate> candidates;
   const std::size_t step = std::max<std::size_t>(1, returns_laser.size() / kSeeds);
@@ -149,7 +149,7 @@ std::vector<Points> boardsInCloud(const Points& returns_laser, const Eigen::Vect
     }
     if (!piece) continue;
     const double score = likeness(*piece, plate);
-    if (score > 0.0) keepApart(candidates, {*std::move(piece), score}, kSameMiddle * plate.norm());
+    if (score > 0.0) keepApart(candidates, {*std::move(piece), score}, kSameMiddle * plate.sides.norm());
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });

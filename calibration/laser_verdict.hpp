@@ -31,7 +31,9 @@ struct LaserVerdict {
   Vector6d weakest = Vector6d::Zero();  ///< one sigma along what is known least, as in `covariance`
   std::string weakest_direction;        ///< the same in words, and which capture would help
   double weakest_share = 0.0;     ///< its sigma over what is tolerable (0.2 degrees, 5 mm)
-  double jackknife_ratio = 0.0;   ///< of sigmas, leave-one-capture-out over covariance, the largest of six
+  /// Of sigmas, leave-one-capture-out over the bundle's, the largest of six. From 2 on `covariance` is the
+  /// bundle's times its square.
+  double jackknife_ratio = 0.0;
   std::vector<std::string> warnings;
 };
 

@@ -1,10 +1,10 @@
 #include "calibration/noise_model.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "calibration/bundle_statistics.hpp"
-#include "calibration/chi_square.hpp"
 
 namespace thermovox {
 namespace {
@@ -78,7 +78,8 @@ double planeFactor(const Linearisation& linear, const Eigen::MatrixXd& covarianc
   }
   if (freedom < 4.0) return now;
   const double factor = now * std::sqrt(squares / freedom);
-  const bool chance = chiSquareTail(factor * factor * freedom, static_cast<int>(std::lround(freedom))) > kUnlikely;
+  const boost::math::chi_squared distribution(freedom);
+  const bool chance = boost::math::cdf(boost::math::complement(distribution, factor * factor * freedom)) > kUnlikely;
   return chance ? 1.0 : std::max(1.0, factor);
 }
 

@@ -48,7 +48,8 @@ class Calibrator {
   [[nodiscard]] std::optional<LaserStart> findLaser();
   [[nodiscard]] std::vector<LaserSight> sights(bool near_guess) const;
   void takePlanes(const RigEstimate& estimate, bool with_edges);
-  void dropCaptures(const CaptureSelection& selection);
+  [[nodiscard]] std::vector<CaptureSight> captureSights() const;
+  void dropCaptures(const CaptureSelection& selection, const RigEstimate& estimate);
   void refuseLaser(const std::string& reason);
   void measureResiduals();
   void judge();
@@ -62,6 +63,7 @@ class Calibrator {
   BundleData data_;
   std::vector<std::optional<PlaneMoments>> planes_;  ///< of each capture, found without its neighbours
   std::vector<bool> counts_;                         ///< of each capture, for the laser
+  std::vector<Matrix6d> board_covariances_;          ///< of each capture's board, by the images alone
 };
 
 void Calibrator::startFromCameras() {
@@ -103,6 +105,12 @@ void Calibrator::fitCameras() {
   model_.corner_loss = BundleModel::Loss::none;
   fit = fitWithNoise(data_, fit.estimate, model_);
   result_.estimate = fit.estimate;
+  const Linearisation linear = linearise(data_, fit.estimate, model_);
+  const Eigen::MatrixXd covariance = jointCovariance(linear).covariance;
+  for (const int place : linear.layout.board) {
+    const bool known = place >= 0 && covariance.size() > 0;
+    board_covariances_.push_back(known ? Matrix6d(covariance.block<6, 6>(place, place)) : Matrix6d::Zero());
+  }
 }
 
 /// What may be the board in each capture's returns; near where the guess has it, or anywhere.
@@ -188,17 +196,17 @@ void Calibrator::calibrateLaser() {
     tell("laser", static_cast<double>(round) / kLaserRounds);
     takePlanes(estimate, round > 0);
     if (const auto reason = tooFewCaptures(data_)) return refuseLaser(*reason);
-    BundleData planes_only = data_;
-    for (CaptureObservations& capture : planes_only.captures) {
-      if (round == 0) capture.edges.clear();
-    }
-    const CaptureSelection selection = selectCaptures(planes_only, estimate, model_);
+    const CaptureSelection selection = selectCaptures(captureSights(), data_.laser, estimate.T_reference_laser);
     counts_ = selection.counts;
     model_.range_bias_sigma = selection.range_bias_sigma;
-    if (round + 1 == kLaserRounds) dropCaptures(selection);
-    estimate = selection.fit.estimate;
+    estimate.T_reference_laser = selection.T_reference_laser;
+    if (round + 1 == kLaserRounds) dropCaptures(selection, estimate);
   }
-  data_ = onlyCounting(data_, counts_);
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    if (counts_[i]) continue;
+    data_.captures[i].plane.reset();
+    data_.captures[i].edges.clear();
+  }
   tell("bundle", 0.0);
   BundleFit fit = fitWithNoise(data_, estimate, model_);
   if (dropEdgeOutliers(data_, fit.estimate, model_) > 0) fit = fitWithNoise(data_, fit.estimate, model_);
@@ -208,7 +216,14 @@ void Calibrator::calibrateLaser() {
         withRollOf(input_.laser->T_reference_laser, result_.estimate.T_reference_laser);
 }
 
-void Calibrator::dropCaptures(const CaptureSelection& selection) {
+std::vector<CaptureSight> Calibrator::captureSights() const {
+  std::vector<CaptureSight> sights;
+  for (std::size_t i = 0; i < data_.captures.size(); ++i)
+    sights.push_back({result_.estimate.T_reference_board[i], board_covariances_[i], data_.captures[i].plane});
+  return sights;
+}
+
+void Calibrator::dropCaptures(const CaptureSelection& selection, const RigEstimate& estimate) {
   for (std::size_t i = 0; i < result_.captures.size(); ++i) {
     const BoardCapture& capture = result_.captures[i];
     if (capture.returns_laser.empty()) continue;
@@ -218,7 +233,7 @@ void Calibrator::dropCaptures(const CaptureSelection& selection) {
       result_.dropped.push_back({capture.name, "its returns have no board where the images have it"});
     } else if (!selection.counts[i]) {
       result_.dropped.push_back(
-          {capture.name, movedWords(*planes_[i], selection.fit.estimate, i, selection.probability[i])});
+          {capture.name, movedWords(*planes_[i], estimate, i, selection.probability[i])});
     } else {
       result_.used.push_back(capture.name);
     }

@@ -149,7 +149,7 @@ void describe(LaserVerdict& verdict, const BundleData& data, const RigEstimate& 
   if (verdict.jackknife_ratio > 2.0)
     verdict.warnings.push_back(fmt::format(
         "leaving captures out one at a time scatters {:.1f} times as far as the covariance says: something that "
-        "is not modelled errs",
+        "is not modelled errs; the covariance is made as large",
         verdict.jackknife_ratio));
 }
 
