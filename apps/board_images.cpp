@@ -23,7 +23,8 @@ void fillUnknown(std::vector<float>& values, const std::filesystem::path& file) 
   }
   if (known == 0) throw DataError(file.string() + ": no pixel has a value, expected the image of a board");
   const auto mean = static_cast<float>(sum / static_cast<double>(known));
-  std::replace_if(values.begin(), values.end(), [](float value) { return !std::isfinite(value); }, mean);
+  std::replace_if(
+      values.begin(), values.end(), [](float value) { return !std::isfinite(value); }, mean);
 }
 
 }  // namespace
@@ -33,9 +34,9 @@ BoardImage readThermalBoard(const std::filesystem::path& file, const std::string
   const RawThermalImage raw =
       openThermalRecording(file, {.named_by = named_by, .visible = VisibleInFrame::leave_out})->read(0);
   if (raw.width != camera.width() || raw.height != camera.height()) {
-    throw DataError(file.string() + ": has " + std::to_string(raw.width) + " x " + std::to_string(raw.height) +
-                    " pixels, expected " + std::to_string(camera.width()) + " x " +
-                    std::to_string(camera.height()) + " as the rig's thermal camera has");
+    throw DataError(file.string() + ": has " + std::to_string(raw.width) + " x " +
+                    std::to_string(raw.height) + " pixels, expected " + std::to_string(camera.width()) +
+                    " x " + std::to_string(camera.height()) + " as the rig's thermal camera has");
   }
   BoardImage image{raw.width, raw.height, raw.celsius};
   if (image.values.empty()) image.values.assign(raw.counts.begin(), raw.counts.end());

@@ -48,7 +48,8 @@ void runCalibrate(CalibrateArgs args) {
   if (run.result.laser) {
     for (const std::string& warning : run.result.laser->warnings) spdlog::warn("{}", warning);
   }
-  if (!args.json) std::cout << calibrationTable(run, args.job, rig) << "rig     " << args.rig.string() << '\n';
+  if (!args.json)
+    std::cout << calibrationTable(run, args.job, rig) << "rig     " << args.rig.string() << '\n';
 }
 
 const std::map<std::string, CalibrationCamera> kCameras{{"thermal", CalibrationCamera::thermal},
@@ -56,7 +57,8 @@ const std::map<std::string, CalibrationCamera> kCameras{{"thermal", CalibrationC
 
 /// What the three tasks have in common.
 void addCommon(CLI::App& verb, CalibrateArgs& args) {
-  verb.add_option("CAPTURES", args.captures, "Folder of captures (captures.yaml), with the first guess of the rig")
+  verb.add_option("CAPTURES", args.captures,
+                  "Folder of captures (captures.yaml), with the first guess of the rig")
       ->required();
   verb.add_option("-o,--output", args.rig, "Rig to write (.yaml), with covariances")->required();
   verb.add_flag("--force", args.force, "Replace files that are there");
@@ -86,7 +88,8 @@ void addTask(CLI::App& calibrate, const std::string& name, CalibrationTask task,
 void addCalibrate(CLI::App& app) {
   CLI::App* calibrate = app.add_subcommand(
       "calibrate",
-      "Calibrate a rig from captures of a heated chessboard: lenses, cameras to each other, laser to cameras. "
+      "Calibrate a rig from captures of a heated chessboard: lenses, cameras to each other, laser to "
+      "cameras. "
       "Tilt the board by 30 to 60 degrees in all directions, at near and far distances, 20 captures or more "
       "(40 for a beam). Exit code 3 says that the captures cannot determine the answer, and why.");
   calibrate->require_subcommand(1);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool anyCapture(const CaptureFolder& folder, std::optional<fs::path> CaptureFiles::* file) {
+bool anyCapture(const CaptureFolder& folder, std::optional<fs::path> CaptureFiles::*file) {
   return std::any_of(folder.captures.begin(), folder.captures.end(),
                      [&](const CaptureFiles& capture) { return (capture.*file).has_value(); });
 }
@@ -78,8 +78,8 @@ std::optional<BoardView> readView(const CaptureFolder& folder, const CaptureFile
   const auto& corners = thermal ? files.thermal_corners : files.visible_corners;
   if (!image) return std::nullopt;
   const Camera& lens = cameraOf(folder.rig, camera);
-  const BoardImage pixels = thermal ? readThermalBoard(*image, files.place, lens)
-                                    : readVisibleBoard(*image, files.place, lens);
+  const BoardImage pixels =
+      thermal ? readThermalBoard(*image, files.place, lens) : readVisibleBoard(*image, files.place, lens);
   if (corners) return markedBoard(pixels, readCorners(*corners, folder.board, files.place), folder.board);
   return findBoard(pixels, folder.board);
 }
@@ -104,7 +104,8 @@ void readCaptures(CalibrationRun& run, const CalibrationJob& job) {
     for (const CalibrationCamera camera : run.cameras)
       capture.views.push_back(readView(run.folder, files[i], camera));
     if (run.input.laser && files[i].laser)
-      capture.returns_laser = readReturns(files[i], run.folder.rig.lasers[static_cast<std::size_t>(job.laser)]);
+      capture.returns_laser =
+          readReturns(files[i], run.folder.rig.lasers[static_cast<std::size_t>(job.laser)]);
     const std::lock_guard lock(telling);
     ++done;
     if (job.progress)
@@ -128,8 +129,8 @@ Matrix6d turned(const Matrix6d& covariance, const Eigen::Matrix3d& R) {
   return turn * covariance * turn.transpose();
 }
 
-/// The covariance of T_reference_camera (along the reference's axes) by that of its inverse (along the camera's):
-/// w' = -R w, t' = -R v - [R t]x R w.
+/// The covariance of T_reference_camera (along the reference's axes) by that of its inverse (along the
+/// camera's): w' = -R w, t' = -R v - [R t]x R w.
 Matrix6d inverseCovariance(const Matrix6d& covariance, const Pose& T_camera_reference) {
   const Eigen::Matrix3d R = T_camera_reference.matrix().transpose();
   Matrix6d J = Matrix6d::Zero();
@@ -172,8 +173,8 @@ Rig calibratedRig(const CalibrationRun& run, const CalibrationJob& job) {
     if (i == 0 || !verdict.pose_estimated) continue;
     const Pose& T_camera_reference = result.estimate.T_camera_reference[i];
     rig.visible_camera->T_body_camera = T_body_reference * T_camera_reference.inverse();
-    rig.visible_camera->covariance_body_camera = turned(
-        inverseCovariance(verdict.covariance_pose, T_camera_reference), T_body_reference.matrix());
+    rig.visible_camera->covariance_body_camera =
+        turned(inverseCovariance(verdict.covariance_pose, T_camera_reference), T_body_reference.matrix());
   }
   if (result.laser && result.laser->observable) {
     Laser& laser = rig.lasers[static_cast<std::size_t>(job.laser)];

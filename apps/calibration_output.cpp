@@ -28,9 +28,8 @@ const char* parameterName(LensModel model, std::size_t i) {
 
 double sigmaOf(const CameraVerdict& verdict, std::size_t i) {
   const auto place = static_cast<Eigen::Index>(i);
-  return place < verdict.covariance_intrinsics.rows()
-             ? std::sqrt(verdict.covariance_intrinsics(place, place))
-             : 0.0;
+  return place < verdict.covariance_intrinsics.rows() ? std::sqrt(verdict.covariance_intrinsics(place, place))
+                                                      : 0.0;
 }
 
 Json poseJson(const Pose& pose) {
@@ -54,12 +53,9 @@ Json translationSigmas(const Matrix6d& covariance) {
 Json cameraJson(const CalibrationRun& run, std::size_t i, const Rig& rig) {
   const CameraVerdict& verdict = run.result.cameras[i];
   const Intrinsics& lens = run.result.estimate.cameras[i];
-  Json json{{"camera", nameOf(run.cameras[i])},
-            {"views", verdict.views},
-            {"corners", verdict.corners},
-            {"corner_outliers", verdict.corner_outliers},
-            {"rms_px", verdict.rms_px},
-            {"estimated", verdict.covariance_intrinsics.size() > 0}};
+  Json json{{"camera", nameOf(run.cameras[i])}, {"views", verdict.views},
+            {"corners", verdict.corners},       {"corner_outliers", verdict.corner_outliers},
+            {"rms_px", verdict.rms_px},         {"estimated", verdict.covariance_intrinsics.size() > 0}};
   const auto parameters = static_cast<std::size_t>(kDistortion + lens.distortion_count);
   for (std::size_t k = 0; k < parameters; ++k) {
     const std::string name = parameterName(lens.model, k);
@@ -95,9 +91,9 @@ void addLaser(Json& json, const CalibrationRun& run, const CalibrationJob& job, 
 std::string cameraTable(const CalibrationRun& run, std::size_t i) {
   const CameraVerdict& verdict = run.result.cameras[i];
   const Intrinsics& lens = run.result.estimate.cameras[i];
-  std::string text = fmt::format("{} camera: {} views, {} corners ({} left out), reprojection error {:.3f} px rms\n",
-                                 nameOf(run.cameras[i]), verdict.views, verdict.corners,
-                                 verdict.corner_outliers, verdict.rms_px);
+  std::string text = fmt::format(
+      "{} camera: {} views, {} corners ({} left out), reprojection error {:.3f} px rms\n",
+      nameOf(run.cameras[i]), verdict.views, verdict.corners, verdict.corner_outliers, verdict.rms_px);
   if (verdict.covariance_intrinsics.size() == 0) return text + "  its lens is kept as it was\n";
   for (std::size_t k = 0; k < static_cast<std::size_t>(kDistortion + lens.distortion_count); ++k) {
     const double sigma = sigmaOf(verdict, k);
@@ -110,12 +106,15 @@ std::string cameraTable(const CalibrationRun& run, std::size_t i) {
 std::string poseTable(const std::string& name, const Pose& pose, const Matrix6d& covariance) {
   const auto& t = pose.translation;
   const auto& q = pose.rotation.coeffs();
-  std::string text = fmt::format("{}: translation {:.5f} {:.5f} {:.5f} m, quaternion xyzw {:.6f} {:.6f} {:.6f} {:.6f}\n",
-                                 name, t.x(), t.y(), t.z(), q[0], q[1], q[2], q[3]);
-  text += fmt::format("  one sigma along the body's axes: rotation {:.3f} {:.3f} {:.3f} deg, translation {:.2f} {:.2f} {:.2f} mm\n",
-                      std::sqrt(covariance(0, 0)) / kDegree, std::sqrt(covariance(1, 1)) / kDegree,
-                      std::sqrt(covariance(2, 2)) / kDegree, 1e3 * std::sqrt(covariance(3, 3)),
-                      1e3 * std::sqrt(covariance(4, 4)), 1e3 * std::sqrt(covariance(5, 5)));
+  std::string text =
+      fmt::format("{}: translation {:.5f} {:.5f} {:.5f} m, quaternion xyzw {:.6f} {:.6f} {:.6f} {:.6f}\n",
+                  name, t.x(), t.y(), t.z(), q[0], q[1], q[2], q[3]);
+  text += fmt::format(
+      "  one sigma along the body's axes: rotation {:.3f} {:.3f} {:.3f} deg, translation {:.2f} {:.2f} "
+      "{:.2f} mm\n",
+      std::sqrt(covariance(0, 0)) / kDegree, std::sqrt(covariance(1, 1)) / kDegree,
+      std::sqrt(covariance(2, 2)) / kDegree, 1e3 * std::sqrt(covariance(3, 3)),
+      1e3 * std::sqrt(covariance(4, 4)), 1e3 * std::sqrt(covariance(5, 5)));
   return text;
 }
 
@@ -125,8 +124,9 @@ std::string laserTable(const CalibrationRun& run, const CalibrationJob& job, con
   std::string text = poseTable("T_body_laser", laser.T_body_laser, laser.covariance_body_laser);
   if (!verdict.roll_observable)
     text += "  a beam's roll about its own axis is no measurement's business: it is the first guess's\n";
-  text += fmt::format("  returns {:.1f} mm rms about the boards; ranges of a capture err together by {:.1f} mm\n",
-                      run.result.rms_mm, 1e3 * run.result.range_bias_sigma);
+  text +=
+      fmt::format("  returns {:.1f} mm rms about the boards; ranges of a capture err together by {:.1f} mm\n",
+                  run.result.rms_mm, 1e3 * run.result.range_bias_sigma);
   for (const PixelTransfer& transfer : verdict.transfer)
     text += fmt::format("  a point {:g} m away is put {:.2f} px beside its pixel (one sigma)\n",
                         transfer.distance, transfer.sigma_px);
@@ -150,7 +150,8 @@ std::string unobservableReason(const CalibrationRun& run, const CalibrationJob& 
     const double focal = sigmaOf(verdict, kFx) / run.result.estimate.cameras[i].parameters[kFx];
     if (!(focal < kFocalUnknown)) {
       return fmt::format(
-          "the focal length of the {} camera is known to {:.0f} % only: tilt the board by 30 to 60 degrees in "
+          "the focal length of the {} camera is known to {:.0f} % only: tilt the board by 30 to 60 degrees "
+          "in "
           "several directions",
           nameOf(run.cameras[i]), 100.0 * focal);
     }

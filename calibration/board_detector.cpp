@@ -104,7 +104,8 @@ std::optional<std::vector<BoardCorner>> cornersOf(const BoardImage& image, const
 /// Columns to the right and rows down as one looks at the board: what is found may be its mirror image.
 Pixels unmirrored(Pixels pixels, const ChessboardGrid& grid) {
   const auto columns = static_cast<std::size_t>(grid.columns);
-  const cv::Point2f along = pixels[columns - 1] - pixels[0], down = pixels[pixels.size() - columns] - pixels[0];
+  const cv::Point2f along = pixels[columns - 1] - pixels[0],
+                    down = pixels[pixels.size() - columns] - pixels[0];
   if (along.cross(down) > 0.0F) return pixels;
   for (auto row = pixels.begin(); row != pixels.end(); row += grid.columns)
     std::reverse(row, row + grid.columns);

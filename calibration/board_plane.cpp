@@ -50,7 +50,9 @@ std::optional<Eigen::Vector3d> fitted(const std::vector<Ray>& rays, int dimensio
   return plane;
 }
 
-double residualOf(const Ray& ray, const Eigen::Vector3d& q) { return ray.range - 1.0 / q.dot(ray.direction); }
+double residualOf(const Ray& ray, const Eigen::Vector3d& q) {
+  return ray.range - 1.0 / q.dot(ray.direction);
+}
 
 double robustSigma(const std::vector<Ray>& rays, const Eigen::Vector3d& q) {
   std::vector<double> sizes;
@@ -64,9 +66,9 @@ double robustSigma(const std::vector<Ray>& rays, const Eigen::Vector3d& q) {
 /// channel of a multi-beam laser err together. The mean square of the channels' means over that within them
 /// (an analysis of variance); 1 where chance explains it, or rays do not come in channels.
 double channelEffect(const std::vector<Ray>& rays, const Eigen::Vector3d& q) {
-  constexpr double kChannel = 0.002;       // radians of elevation between two of them
-  constexpr std::size_t kFewest = 4;       // channels, and rays in each on the average
-  constexpr double kChance = 2.0;          // a ratio that chance makes
+  constexpr double kChannel = 0.002;              // radians of elevation between two of them
+  constexpr std::size_t kFewest = 4;              // channels, and rays in each on the average
+  constexpr double kChance = 2.0;                 // a ratio that chance makes
   std::vector<std::pair<double, double>> sorted;  // elevation, residual
   for (const Ray& ray : rays) sorted.emplace_back(std::asin(ray.direction.z()), residualOf(ray, q));
   std::sort(sorted.begin(), sorted.end());
@@ -109,7 +111,8 @@ std::vector<std::size_t> spread(const std::vector<Ray>& rays, std::size_t count)
 
 /// See PlaneMoments: the decomposition of [rho^2 u, 1 | e] / sigma.
 void decompose(PlaneMoments& moments, const std::vector<Ray>& rays) {
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::max<Eigen::Index>(5, static_cast<Eigen::Index>(rays.size())), 5);
+  Eigen::MatrixXd rows =
+      Eigen::MatrixXd::Zero(std::max<Eigen::Index>(5, static_cast<Eigen::Index>(rays.size())), 5);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Ray& ray = rays[i];
     const double rho = 1.0 / moments.inverse_plane.dot(ray.direction);
@@ -134,9 +137,8 @@ std::optional<PlaneMoments> planeMoments(const std::vector<Eigen::Vector3d>& ret
     plane = fitted(rays, dimensions);
     if (!plane) return std::nullopt;
     const double gate = kOutlier * std::max({robustSigma(rays, *plane), 0.1 * range_sigma, 1e-5});
-    const auto kept = std::remove_if(rays.begin(), rays.end(), [&](const Ray& ray) {
-      return std::abs(residualOf(ray, *plane)) > gate;
-    });
+    const auto kept = std::remove_if(
+        rays.begin(), rays.end(), [&](const Ray& ray) { return std::abs(residualOf(ray, *plane)) > gate; });
     if (kept == rays.end()) break;
     rays.erase(kept, rays.end());
   }

@@ -10,7 +10,7 @@ namespace thermovox {
 /// The covariance of all unknowns by their information J^T J, and what of them the data do not determine.
 struct JointCovariance {
   Eigen::MatrixXd covariance;  ///< in the order of the layout; empty where the information is singular
-  double condition = 0.0;      ///< least over largest eigenvalue of the information, its columns scaled to one
+  double condition = 0.0;  ///< least over largest eigenvalue of the information, its columns scaled to one
 };
 
 [[nodiscard]] JointCovariance jointCovariance(const Linearisation& linear);

@@ -104,7 +104,9 @@ std::optional<FittedCamera> fitCamera(const CalibrationInput& input, std::size_t
   return best;
 }
 
-double turnBetween(const Pose& a, const Pose& b) { return a.rotation.angularDistance(b.rotation); }
+double turnBetween(const Pose& a, const Pose& b) {
+  return a.rotation.angularDistance(b.rotation);
+}
 
 /// How far two answers are from each other, in units of what still agrees.
 double apart(const Pose& a, const Pose& b) {
@@ -190,8 +192,8 @@ void align(CameraStart& start, const CalibrationInput& input, std::size_t camera
     std::optional<BoardView>& view = start.captures[i].views[camera];
     if (apart(nearest->T_camera_reference, T_camera_reference) > 1.0) {
       view.reset();
-      start.dropped.push_back({start.captures[i].name,
-                               "the board moved between the images of the two cameras"});
+      start.dropped.push_back(
+          {start.captures[i].name, "the board moved between the images of the two cameras"});
     } else {
       view = reordered(*view, symmetries[nearest->symmetry]);
     }

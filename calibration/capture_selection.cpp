@@ -17,9 +17,9 @@ namespace thermovox {
 namespace {
 
 constexpr double kUnlikely = 2.5e-4;
-constexpr double kLeastKept = 0.6;    // of the captures, at first
-constexpr std::size_t kFewest = 6;    // captures that are never judged
-constexpr int kSteps = 8;             // of Gauss and Newton
+constexpr double kLeastKept = 0.6;  // of the captures, at first
+constexpr std::size_t kFewest = 6;  // captures that are never judged
+constexpr int kSteps = 8;           // of Gauss and Newton
 
 using Matrix46 = Eigen::Matrix<double, 4, 6>;
 
@@ -46,8 +46,8 @@ PlaneRow rowOf(const CaptureSight& sight, const Pose& T_reference_laser) {
     return std::array<Jet, 7>{turned.x(), turned.y(), turned.z(), turned.w(), t[0], t[1], t[2]};
   };
   const auto laser = numbers(T_reference_laser, 0, true), board = numbers(sight.T_reference_board, 6, false);
-  const Vec3<Jet> change = inversePlane<Jet>(board.data(), laser.data()) -
-                           sight.plane->inverse_plane.cast<Jet>();
+  const Vec3<Jet> change =
+      inversePlane<Jet>(board.data(), laser.data()) - sight.plane->inverse_plane.cast<Jet>();
   PlaneRow row;
   Matrix46 by_board;
   for (int i = 0; i < 4; ++i) {
@@ -92,7 +92,10 @@ class PlaneFit {
   }
 
   CaptureSelection& state() { return state_; }
+  /// The laser's pose, the sigma of the biases, and every capture's probability, anew.
   void refit();
+  /// The probabilities when what counts is all that is sound, not the best of it.
+  void judgeWhole() { judge(1.0); }
 
  private:
   struct Normal {
@@ -104,7 +107,7 @@ class PlaneFit {
   [[nodiscard]] std::vector<PlaneRow> rows() const;
   void step();
   void estimateBias();
-  void judge();
+  void judge(double share);
 
   const std::vector<CaptureSight>& sights_;
   Eigen::Matrix<double, 6, Eigen::Dynamic> directions_;
@@ -146,7 +149,7 @@ void PlaneFit::step() {
 
 /// The largest restricted likelihood; before, 5 mm within a factor of three.
 void PlaneFit::estimateBias() {
-  constexpr double kUsual = 0.005, kFactor = 3.0;              // metres
+  constexpr double kUsual = 0.005, kFactor = 3.0;               // metres
   constexpr double kLeast = 0.0002, kMost = 0.1, kRatio = 1.1;  // metres
   const std::vector<PlaneRow> all = rows();
   double least = std::numeric_limits<double>::infinity();
@@ -162,14 +165,9 @@ void PlaneFit::estimateBias() {
   }
 }
 
-/// How likely each capture is: of those that count, without themselves.
-void PlaneFit::judge() {
-  std::size_t counting = 0, planes = 0;
-  for (std::size_t i = 0; i < sights_.size(); ++i) {
-    planes += sights_[i].plane ? 1 : 0;
-    counting += state_.counts[i] ? 1 : 0;
-  }
-  const double share = static_cast<double>(counting) / static_cast<double>(planes);
+/// How likely each capture is: of those that count, without themselves. `share` of the sound ones counts.
+void PlaneFit::judge(double share) {
+  const auto counting = static_cast<double>(std::count(state_.counts.begin(), state_.counts.end(), true));
   const double bias_sigma = state_.range_bias_sigma / trimmedSigma(share);
   const std::vector<PlaneRow> all = rows();
   const Normal normal = normalEquations(all, bias_sigma);
@@ -180,9 +178,10 @@ void PlaneFit::judge() {
     const Eigen::MatrixXd J = all[i].slope * directions_;
     const Eigen::Matrix4d by_laser = J * information.solve(J.transpose());
     const Eigen::Matrix4d own = covarianceOf(all[i], bias_sigma);
-    const Eigen::Matrix4d expected = state_.counts[i] ? Eigen::Matrix4d(own - by_laser) : Eigen::Matrix4d(own + by_laser);
+    const Eigen::Matrix4d expected =
+        state_.counts[i] ? Eigen::Matrix4d(own - by_laser) : Eigen::Matrix4d(own + by_laser);
     const double squares = all[i].residual.dot(Eigen::LDLT<Eigen::Matrix4d>(expected).solve(all[i].residual));
-    const double freedom = std::max(2.0, static_cast<double>(counting) - 6.0);
+    const double freedom = std::max(2.0, counting - 6.0);
     const boost::math::fisher_f f(all[i].dimensions, freedom);
     state_.probability[i] =
         squares > 0.0 ? boost::math::cdf(boost::math::complement(f, squares / all[i].dimensions)) : 1.0;
@@ -194,10 +193,13 @@ void PlaneFit::refit() {
     step();
     if (i % 3 == 2) estimateBias();
   }
-  judge();
+  const auto planes = static_cast<double>(std::count_if(
+      sights_.begin(), sights_.end(), [](const auto& sight) { return sight.plane.has_value(); }));
+  judge(static_cast<double>(std::count(state_.counts.begin(), state_.counts.end(), true)) / planes);
 }
 
-/// The capture that fits least (of those that count) or best (of those that do not); none where there is none.
+/// The capture that fits least (of those that count) or best (of those that do not); none where there is
+/// none.
 std::optional<std::size_t> extreme(const std::vector<CaptureSight>& sights, const CaptureSelection& state,
                                    bool counting) {
   std::optional<std::size_t> found;
@@ -226,6 +228,14 @@ CaptureSelection selectCaptures(const std::vector<CaptureSight>& sights, LaserKi
     if (state.probability[*best] < kUnlikely) break;
     state.counts[*best] = true;
     fit.refit();
+  }
+  // Whoever came in while the sigma was thought larger has to pass by the sigma of all.
+  fit.judgeWhole();
+  for (auto worst = extreme(sights, state, true); worst && state.probability[*worst] < kUnlikely;
+       worst = extreme(sights, state, true)) {
+    state.counts[*worst] = false;
+    fit.refit();
+    fit.judgeWhole();
   }
   return state;
 }

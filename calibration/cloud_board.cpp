@@ -14,13 +14,13 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr std::size_t kSeeds = 600;      // spheres, all over the cloud
-constexpr int kTrials = 60;              // planes tried in a sphere
-constexpr double kThick = 0.03;          // metres either side of a plane: three sigmas of most lasers
-constexpr double kSize = 0.15;           // of a side: how far a rectangle may be off
-constexpr double kLeastFilled = 0.7;     // of the rectangle's area, by the points' hull
-constexpr std::size_t kFewest = 20;      // points
-constexpr double kSameMiddle = 0.3;      // of the plate's diagonal: one board twice
+constexpr std::size_t kSeeds = 300;   // spheres, all over the cloud
+constexpr int kTrials = 40;           // planes tried in a sphere
+constexpr double kThick = 0.03;       // metres either side of a plane: three sigmas of most lasers
+constexpr double kSize = 0.15;        // of a side: how far a rectangle may be off
+constexpr double kLeastFilled = 0.7;  // of the rectangle's area, by the points' hull
+constexpr std::size_t kFewest = 20;   // points
+constexpr double kSameMiddle = 0.3;   // of the plate's diagonal: one board twice
 
 Points within(const Points& points, const Eigen::Vector3d& middle, double radius) {
   Points near;
@@ -54,7 +54,7 @@ std::optional<FlatPiece> flattest(const Points& points, std::mt19937_64& random)
   if (points.size() < kFewest) return std::nullopt;
   std::size_t most = 0;
   Points best;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / 300);  // counted are at most 600
+  const std::size_t step = std::max<std::size_t>(1, points.size() / 150);  // counted are at most 300
   for (int trial = 0; trial < kTrials; ++trial) {
     const Eigen::Vector3d& a = points[random() % points.size()];
     const Eigen::Vector3d& b = points[random() % points.size()];
@@ -141,8 +141,12 @@ std::vector<Points> boardsInCloud(const Points& returns_laser, const SoughtPlate
   const std::size_t step = std::max<std::size_t>(1, returns_laser.size() / kSeeds);
   for (std::size_t seed = 0; seed < returns_laser.size(); seed += step) {
     Eigen::Vector3d middle = returns_laser[seed];
+    const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+      return (candidate.piece.middle - middle).norm() < kSameMiddle * plate.sides.norm();
+    });
+    if (known) continue;
     std::optional<FlatPiece> piece;
-    for (int round = 0; round < 4; ++round) {  // the sphere moves to the middle of what it found
+    for (int round = 0; round < 3; ++round) {  // the sphere moves to the middle of what it found
       piece = flattest(within(returns_laser, middle, radius), random);
       if (!piece || (piece->middle - middle).norm() < 0.02 * radius) break;
       middle = piece->middle;

@@ -66,7 +66,8 @@ int reduction(const cv::Mat& image) {
 
 cv::Mat shrunk(const cv::Mat& image, int factor) {
   cv::Mat small;
-  const cv::Mat whole = image(cv::Rect(0, 0, image.cols - image.cols % factor, image.rows - image.rows % factor));
+  const cv::Mat whole =
+      image(cv::Rect(0, 0, image.cols - image.cols % factor, image.rows - image.rows % factor));
   cv::resize(whole, small, {whole.cols / factor, whole.rows / factor}, 0.0, 0.0, cv::INTER_AREA);
   return small;
 }

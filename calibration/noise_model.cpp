@@ -9,7 +9,7 @@
 namespace thermovox {
 namespace {
 
-constexpr double kOutlier = 3.5;  // robust sigmas
+constexpr double kOutlier = 3.5;         // robust sigmas
 constexpr double kLeastEdgeSigma = 0.3;  // of what crossings say: rays in a row may all pass well
 constexpr int kRounds = 3;
 
@@ -31,10 +31,10 @@ std::vector<double> residualsOf(const Linearisation& linear, RowGroup::Kind kind
   return residuals;
 }
 
-/// What the sides of the boards err by together, so that their offsets are as far off as expected: the root of
-/// sum(m^2 / (v + sigma^2)) = n, with the offset m of a side and its variance v from its crossings alone.
+/// What the sides of the boards err by together, so that their offsets are as far off as expected: the root
+/// of sum(m^2 / (v + sigma^2)) = n, with the offset m of a side and its variance v from its crossings alone.
 double edgeOffsetSigma(const BundleData& data, const Linearisation& linear, const BundleModel& model) {
-  constexpr double kMost = 0.05;  // metres
+  constexpr double kMost = 0.05;                 // metres
   std::vector<std::pair<double, double>> sides;  // m^2, v
   for (const RowGroup& group : linear.groups) {
     if (group.kind != RowGroup::Kind::edges) continue;
@@ -73,13 +73,15 @@ double planeFactor(const Linearisation& linear, const Eigen::MatrixXd& covarianc
     const Eigen::MatrixXd rows = linear.jacobian.middleRows(group.first, group.count);
     squares += linear.residuals.segment(group.first, group.count).squaredNorm();
     for (int row = 0; row < group.count; ++row) {
-      if (rows.row(row).squaredNorm() > 0.0) freedom += 1.0 - rows.row(row) * covariance * rows.row(row).transpose();
+      if (rows.row(row).squaredNorm() > 0.0)
+        freedom += 1.0 - rows.row(row) * covariance * rows.row(row).transpose();
     }
   }
   if (freedom < 4.0) return now;
   const double factor = now * std::sqrt(squares / freedom);
   const boost::math::chi_squared distribution(freedom);
-  const bool chance = boost::math::cdf(boost::math::complement(distribution, factor * factor * freedom)) > kUnlikely;
+  const bool chance =
+      boost::math::cdf(boost::math::complement(distribution, factor * factor * freedom)) > kUnlikely;
   return chance ? 1.0 : std::max(1.0, factor);
 }
 

@@ -20,7 +20,7 @@
 namespace thermovox {
 namespace {
 
-constexpr double kHuber = 2.0;       // sigmas
+constexpr double kHuber = 2.0;  // sigmas
 constexpr int kMostIterations = 100;
 
 using PoseNumbers = std::array<double, 7>;
@@ -61,8 +61,13 @@ struct PlaneResidualWithCommonBias {
 class Bundle {
  public:
   Bundle(const BundleData& data, const RigEstimate& start, const BundleModel& model)
-      : data_(data), model_(model), start_(start), laser_(numbersOf(start.T_reference_laser)),
-        range_bias_(start.range_bias), common_bias_(start.common_range_bias), edge_bias_(start.edge_bias) {
+      : data_(data),
+        model_(model),
+        start_(start),
+        laser_(numbersOf(start.T_reference_laser)),
+        range_bias_(start.range_bias),
+        common_bias_(start.common_range_bias),
+        edge_bias_(start.edge_bias) {
     for (const Intrinsics& camera : start.cameras) intrinsics_.push_back(camera.parameters);
     for (const Pose& pose : start.T_camera_reference) camera_poses_.push_back(numbersOf(pose));
     for (const Pose& pose : start.T_reference_board) boards_.push_back(numbersOf(pose));
@@ -178,9 +183,8 @@ void Bundle::addPlane(std::size_t capture) {
   plane.moments.offset /= model_.plane_factor;
   double* bias = &range_bias_[capture];
   if (model_.common_range_bias_sigma > 0.0) {
-    add<PlaneResidualWithCommonBias, 4, 7, 7, 1, 1>(PlaneResidualWithCommonBias{plane},
-                                                    boards_[capture].data(), laser_.data(), bias,
-                                                    &common_bias_);
+    add<PlaneResidualWithCommonBias, 4, 7, 7, 1, 1>(
+        PlaneResidualWithCommonBias{plane}, boards_[capture].data(), laser_.data(), bias, &common_bias_);
   } else {
     add<PlaneResidual, 4, 7, 7, 1>(plane, boards_[capture].data(), laser_.data(), bias);
   }
@@ -297,7 +301,8 @@ BundleFit Bundle::solve() {
   }
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem_, &summary);
-  return {estimate(), summary.final_cost, summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE};
+  return {estimate(), summary.final_cost,
+          summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE};
 }
 
 Linearisation Bundle::linearise() {
@@ -309,7 +314,8 @@ Linearisation Bundle::linearise() {
   std::vector<double> residuals;
   ceres::CRSMatrix crs;
   problem_.Evaluate(options, nullptr, &residuals, nullptr, &crs);
-  result.residuals = Eigen::Map<const Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+  result.residuals =
+      Eigen::Map<const Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
   result.jacobian = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
       crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
       crs.cols.data(), crs.values.data());

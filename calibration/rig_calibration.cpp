@@ -20,10 +20,10 @@
 namespace thermovox {
 namespace {
 
-constexpr double kInset = 0.01;        // metres from the plate's edge: mixed returns
-constexpr double kSlack = 0.03;        // metres off the plane, and five sigmas of the laser
-constexpr double kWellExplained = 0.3; // mean cost of a start, 0 to 1, that needs no wider search
-constexpr int kLaserRounds = 3;        // of extraction and bundle
+constexpr double kInset = 0.01;         // metres from the plate's edge: mixed returns
+constexpr double kSlack = 0.03;         // metres off the plane, and five sigmas of the laser
+constexpr double kWellExplained = 0.3;  // mean cost of a start, 0 to 1, that needs no wider search
+constexpr int kLaserRounds = 3;         // of extraction and bundle
 
 /// Where a ray of the laser meets the board of a capture, metres.
 double rangeOf(const RigEstimate& estimate, std::size_t capture, const Eigen::Vector3d& ray_laser) {
@@ -160,8 +160,8 @@ std::optional<LaserStart> Calibrator::findLaser() {
   return best;
 }
 
-/// The returns that are on the plates as the estimate has them, of the captures that count; of the others what
-/// was found without it.
+/// The returns that are on the plates as the estimate has them, of the captures that count; of the others
+/// what was found without it.
 void Calibrator::takePlanes(const RigEstimate& estimate, bool with_edges) {
   const LaserGuess& laser = *input_.laser;
   for (std::size_t i = 0; i < data_.captures.size(); ++i) {
@@ -196,7 +196,8 @@ void Calibrator::calibrateLaser() {
     tell("laser", static_cast<double>(round) / kLaserRounds);
     takePlanes(estimate, round > 0);
     if (const auto reason = tooFewCaptures(data_)) return refuseLaser(*reason);
-    const CaptureSelection selection = selectCaptures(captureSights(), data_.laser, estimate.T_reference_laser);
+    const CaptureSelection selection =
+        selectCaptures(captureSights(), data_.laser, estimate.T_reference_laser);
     counts_ = selection.counts;
     model_.range_bias_sigma = selection.range_bias_sigma;
     estimate.T_reference_laser = selection.T_reference_laser;
@@ -305,7 +306,8 @@ void Calibrator::measureResiduals() {
     returns += plane.returns;
   }
   for (std::size_t camera = 0; camera < squares.size(); ++camera)
-    result_.cameras[camera].rms_px = std::sqrt(squares[camera] / std::max(1, result_.cameras[camera].corners));
+    result_.cameras[camera].rms_px =
+        std::sqrt(squares[camera] / std::max(1, result_.cameras[camera].corners));
   result_.rms_mm = 1e3 * std::sqrt(off / std::max(1.0, returns));
 }
 

@@ -29,8 +29,8 @@ simulate::CaptureOptions optionsOf(const TrialSet& set, std::uint64_t seed) {
 }
 
 /// The board's points in a camera, each off by Gaussian noise.
-BoardView noisyView(const std::vector<Eigen::Vector3d>& points, const Camera& camera, const Pose& T_camera_board,
-                    double sigma, std::mt19937_64& random) {
+BoardView noisyView(const std::vector<Eigen::Vector3d>& points, const Camera& camera,
+                    const Pose& T_camera_board, double sigma, std::mt19937_64& random) {
   std::normal_distribution<double> noise(0.0, sigma);
   BoardView view;
   for (const Eigen::Vector3d& point : points) {
@@ -63,9 +63,9 @@ class Trial {
       cameras_.push_back(truth.visible_camera->camera);
       T_camera_reference_.push_back(truth.visible_camera->T_body_camera.inverse() *
                                     truth.thermal_camera->T_body_camera);
-      input_.cameras.push_back({guess.visible_camera->camera.intrinsics(),
-                                guess.thermal_camera->T_body_camera.inverse() *
-                                    guess.visible_camera->T_body_camera});
+      input_.cameras.push_back(
+          {guess.visible_camera->camera.intrinsics(),
+           guess.thermal_camera->T_body_camera.inverse() * guess.visible_camera->T_body_camera});
     }
     const Laser& laser = guess.lasers.front();
     input_.laser = LaserGuess{laser.kind, guess.thermal_camera->T_body_camera.inverse() * laser.T_body_laser,
@@ -108,7 +108,8 @@ class Trial {
 };
 
 Matrix6d Trial::bound() const {
-  MeasuredSetUp set_up{.laser = set_.laser, .T_reference_laser = trueLaser(),
+  MeasuredSetUp set_up{.laser = set_.laser,
+                       .T_reference_laser = trueLaser(),
                        .range_sigma = scene_.options().range_sigma,
                        .range_bias_sigma = set_.capture_bias_sigma};
   set_up.points = boardPoints(board_);
@@ -126,9 +127,9 @@ Matrix6d Trial::bound() const {
         capture.rays.push_back(p.normalized());
     }
     if (set_.edges == TrialSet::Edges::used && !truth.spoiled) {
-      capture.edges = edgeSides(input_.captures[i].returns_laser, set_.laser,
-                                trueLaser().inverse() * capture.T_reference_board, board_,
-                                scene_.options().range_sigma);
+      capture.edges =
+          edgeSides(input_.captures[i].returns_laser, set_.laser,
+                    trueLaser().inverse() * capture.T_reference_board, board_, scene_.options().range_sigma);
     }
     set_up.captures.push_back(std::move(capture));
   }
@@ -177,24 +178,48 @@ std::vector<TrialSet> trialSets() {
       {.name = "2D, lines", .laser = LaserKind::scan},
       {.name = "2D, lines and edges", .laser = LaserKind::scan, .edges = Edges::used},
       {.name = "1D, averaged", .laser = LaserKind::beam, .capture_bias_sigma = 0.003},
-      {.name = "1D, averaged, 16 edges", .laser = LaserKind::beam, .edge_captures = 16,
-       .capture_bias_sigma = 0.003, .edges = Edges::used},
-      {.name = "3D, both cameras, no bias", .laser = LaserKind::cloud, .capture_bias_sigma = 0.0,
-       .cameras = Cameras::both, .edges = Edges::used},
-      {.name = "2D, both cameras, no bias", .laser = LaserKind::scan, .capture_bias_sigma = 0.0,
-       .cameras = Cameras::both, .edges = Edges::used},
-      {.name = "1D, both cameras, no bias", .laser = LaserKind::beam, .captures = 40,
-       .capture_bias_sigma = 0.0, .cameras = Cameras::both, .edges = Edges::used},
-      {.name = "3D, 4 of 24 spoiled", .laser = LaserKind::cloud, .captures = 24, .spoiled = 4,
+      {.name = "1D, averaged, 16 edges",
+       .laser = LaserKind::beam,
+       .edge_captures = 16,
+       .capture_bias_sigma = 0.003,
        .edges = Edges::used},
-      {.name = "2D, 4 of 24 spoiled", .laser = LaserKind::scan, .captures = 24, .spoiled = 4,
+      {.name = "3D, both cameras, no bias",
+       .laser = LaserKind::cloud,
+       .capture_bias_sigma = 0.0,
+       .cameras = Cameras::both,
        .edges = Edges::used},
-      {.name = "1D, 6 of 40 spoiled", .laser = LaserKind::beam, .captures = 40, .spoiled = 6,
+      {.name = "2D, both cameras, no bias",
+       .laser = LaserKind::scan,
+       .capture_bias_sigma = 0.0,
+       .cameras = Cameras::both,
+       .edges = Edges::used},
+      {.name = "1D, both cameras, no bias",
+       .laser = LaserKind::beam,
+       .captures = 40,
+       .capture_bias_sigma = 0.0,
+       .cameras = Cameras::both,
+       .edges = Edges::used},
+      {.name = "3D, 4 of 24 spoiled",
+       .laser = LaserKind::cloud,
+       .captures = 24,
+       .spoiled = 4,
+       .edges = Edges::used},
+      {.name = "2D, 4 of 24 spoiled",
+       .laser = LaserKind::scan,
+       .captures = 24,
+       .spoiled = 4,
+       .edges = Edges::used},
+      {.name = "1D, 6 of 40 spoiled",
+       .laser = LaserKind::beam,
+       .captures = 40,
+       .spoiled = 6,
        .capture_bias_sigma = 0.003},
   };
 }
 
-CalibrationTrial calibrationTrial(const TrialSet& set, std::uint64_t seed) { return Trial(set, seed).run(); }
+CalibrationTrial calibrationTrial(const TrialSet& set, std::uint64_t seed) {
+  return Trial(set, seed).run();
+}
 
 CalibrationSummary calibrationTrials(const TrialSet& set, std::uint64_t first_seed, std::size_t runs) {
   CalibrationSummary sum{.trials = runs};
@@ -213,7 +238,8 @@ CalibrationSummary calibrationTrials(const TrialSet& set, std::uint64_t first_se
     sum.centre_error_px = std::max(sum.centre_error_px, trial.centre_error_px);
   }
   const auto n = static_cast<double>(std::max<std::size_t>(1, sum.observable));
-  for (double* mean : {&sum.rotation_error, &sum.rotation_bound, &sum.translation_error, &sum.translation_bound})
+  for (double* mean :
+       {&sum.rotation_error, &sum.rotation_bound, &sum.translation_error, &sum.translation_bound})
     *mean = std::sqrt(*mean / n);
   sum.nees /= n;
   return sum;

@@ -14,7 +14,8 @@ Pose moved(const Pose& pose, const Eigen::VectorXd& x) {
   return {expRotation(x.head<3>()) * pose.rotation, pose.translation + x.segment<3>(3)};
 }
 
-/// Unknowns that all captures share: the laser (6), a lens a camera, the other camera's pose, the edges' bias.
+/// Unknowns that all captures share: the laser (6), a lens a camera, the other camera's pose, the edges'
+/// bias.
 int sharedOf(const MeasuredSetUp& set_up) {
   const int cameras = static_cast<int>(set_up.cameras.size());
   return 6 + kLens * cameras + 6 * (cameras - 1) + 1;
@@ -68,8 +69,8 @@ class Instruments {
       const Eigen::Vector3d ray = T_board_laser.rotation * crossing.ray;
       const Eigen::Vector3d& origin = T_board_laser.translation;
       const double outwards = crossing.place > 0.0 ? 1.0 : -1.0;
-      across[i] = outwards * (origin[crossing.axis] - origin.z() / ray.z() * ray[crossing.axis]) -
-                  x_[own_ - 1];
+      across[i] =
+          outwards * (origin[crossing.axis] - origin.z() / ray.z() * ray[crossing.axis]) - x_[own_ - 1];
       covariance(i, i) += crossing.sigma * crossing.sigma;
     }
     const Eigen::VectorXd white = Eigen::LLT<Eigen::MatrixXd>(covariance).matrixL().solve(across);
@@ -88,9 +89,9 @@ Eigen::MatrixXd jacobianOf(const MeasuredSetUp& set_up, const MeasuredCapture& c
   for (int i = 0; i < unknowns; ++i) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(unknowns, i);
     const Eigen::VectorXd behind = -step;
-    const Eigen::VectorXd slope = (Instruments(set_up, capture, step).measure() -
-                                   Instruments(set_up, capture, behind).measure()) /
-                                  (2.0 * kStep);
+    const Eigen::VectorXd slope =
+        (Instruments(set_up, capture, step).measure() - Instruments(set_up, capture, behind).measure()) /
+        (2.0 * kStep);
     if (J.size() == 0) J.resize(slope.size(), unknowns);
     J.col(i) = slope;
   }
@@ -110,14 +111,15 @@ Matrix6d cramerRaoBound(const MeasuredSetUp& set_up) {
     const double known = set_up.range_bias_sigma > 0.0 ? set_up.range_bias_sigma : 1e-6;
     fisher(unknowns - 1, unknowns - 1) += 1.0 / (known * known);
     const Eigen::MatrixXd across = fisher.bottomLeftCorner(kBoard + 1, shared);
-    information += fisher.topLeftCorner(shared, shared) -
-                   across.transpose() *
-                       Eigen::LDLT<Eigen::MatrixXd>(fisher.bottomRightCorner(kBoard + 1, kBoard + 1)).solve(across);
+    information +=
+        fisher.topLeftCorner(shared, shared) -
+        across.transpose() *
+            Eigen::LDLT<Eigen::MatrixXd>(fisher.bottomRightCorner(kBoard + 1, kBoard + 1)).solve(across);
   }
   const Eigen::MatrixXd rest = information.bottomRightCorner(shared - 6, shared - 6);
   const Eigen::MatrixXd across = information.bottomLeftCorner(shared - 6, 6);
-  const Matrix6d laser =
-      information.topLeftCorner<6, 6>() - across.transpose() * Eigen::LDLT<Eigen::MatrixXd>(rest).solve(across);
+  const Matrix6d laser = information.topLeftCorner<6, 6>() -
+                         across.transpose() * Eigen::LDLT<Eigen::MatrixXd>(rest).solve(across);
   // A beam's roll: nothing is known of the turn about its axis.
   Eigen::MatrixXd span = Eigen::MatrixXd::Identity(6, 6);
   if (set_up.laser == LaserKind::beam) {
