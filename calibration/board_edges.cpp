@@ -163,7 +163,7 @@ std::vector<EdgeCrossing> beamCrossings(const ReturnSet& returns, const Plate& p
   const Sighting beam = plate.sightingOf(Eigen::Vector3d::UnitX(), 0.0);
   std::optional<EdgeCrossing> crossing = plate.at(Eigen::Vector3d::UnitX(), beam.hit);
   if (!crossing) return {};
-  crossing->sigma = kBeamSpot / beam.cosine;  // at one metre
+  crossing->sigma = kBeamSpot * returns.front().norm() / beam.cosine;
   return {*crossing};
 }
 

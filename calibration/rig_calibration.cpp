@@ -277,7 +277,7 @@ void Calibrator::judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& 
                                 .captures = static_cast<int>(data_.captures.size())};
   if (covariance.size() == 0) return refuseLaser(geometryWords(data_, result_.estimate, true).front());
   result_.laser = laserVerdict(linear, covariance, result_.estimate, about);
-  describe(*result_.laser, data_, result_.estimate);
+  describe(*result_.laser, data_, result_.estimate, model_.range_bias_sigma);
 }
 
 /// What is left of the corners and the returns beside the estimate.

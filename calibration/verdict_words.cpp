@@ -8,7 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibration/next_capture.hpp"
 #include "calibration/plane_residual.hpp"
+#include "projection/kind_names.hpp"
 
 namespace thermovox {
 namespace {
@@ -60,6 +62,19 @@ const char* axisName(const Eigen::Vector3d& axis) {
   Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
   return kAxes[static_cast<std::size_t>(largest)];
+}
+
+/// One sigma along a direction (rotation, translation in the reference camera), by its largest part.
+std::string directionWords(const Vector6d& weakest) {
+  Vector6d shares = weakest;
+  shares.head<3>() /= kTurn;
+  shares.tail<3>() /= kShift;
+  Eigen::Index largest = 0;
+  shares.cwiseAbs().maxCoeff(&largest);
+  return fmt::format("{} the camera's {} axis: {:.2g} deg and {:.2g} mm together, one sigma",
+                     largest < 3 ? "rotation about" : "translation along",
+                     kAxes[static_cast<std::size_t>(largest % 3)], weakest.head<3>().norm() / kDegree,
+                     1e3 * weakest.tail<3>().norm());
 }
 
 }  // namespace
@@ -127,37 +142,30 @@ std::vector<std::string> geometryWords(const BundleData& data, const RigEstimate
   return words;
 }
 
-void describe(LaserVerdict& verdict, const BundleData& data, const RigEstimate& estimate) {
-  Vector6d shares = verdict.weakest;
-  shares.head<3>() /= kTurn;
-  shares.tail<3>() /= kShift;
-  Eigen::Index largest = 0;
-  shares.cwiseAbs().maxCoeff(&largest);
-  const double turn = verdict.weakest.head<3>().norm() / kDegree,
-               shift = 1e3 * verdict.weakest.tail<3>().norm();
-  verdict.weakest_direction =
-      fmt::format("{} the camera's {} axis: {:.2g} deg and {:.2g} mm together, one sigma",
-                  largest < 3 ? "rotation about" : "translation along",
-                  kAxes[static_cast<std::size_t>(largest % 3)], turn, shift);
-  const std::vector<std::string> geometry = geometryWords(data, estimate, verdict.weakest_share > kUnknown);
+void describe(LaserVerdict& verdict, const BundleData& data, const RigEstimate& estimate,
+              double range_bias_sigma) {
+  const std::string direction = directionWords(verdict.weakest);
   if (verdict.weakest_share > kUnknown) {
     verdict.observable = false;
-    verdict.reason = verdict.weakest_direction + ": " + geometry.front();
+    verdict.reason = "not known: " + direction + "; " + geometryWords(data, estimate, true).front();
+    verdict.weakest_direction = direction;
     return;
   }
-  verdict.warnings.insert(verdict.warnings.end(), geometry.begin(), geometry.end());
+  const std::string advice = adviseCapture(verdict.weakest, data, estimate, range_bias_sigma);
+  verdict.weakest_direction = direction + "; to know it better " + advice;
+  for (const std::string& words : geometryWords(data, estimate, false)) verdict.warnings.push_back(words);
   const std::size_t planes = planesIn(data);
   const std::size_t asked = data.laser == LaserKind::beam ? 40 : data.laser == LaserKind::scan ? 20 : 12;
-  if (planes < asked && verdict.weakest_share > 1.0)
-    verdict.warnings.push_back(
-        fmt::format("{} captures count, {} or more are advised for this kind of laser", planes, asked));
+  const std::size_t least = data.laser == LaserKind::beam ? 10 : 6;
+  if (planes < least || (planes < asked && verdict.weakest_share > 1.0))
+    verdict.warnings.push_back(fmt::format("{} captures count, {} or more are advised for a laser of kind {}",
+                                           planes, asked, nameOf(data.laser)));
   if (verdict.weakest_share > 1.0)
     verdict.warnings.push_back("not yet known to 0.2 deg and 5 mm: " + verdict.weakest_direction);
   if (verdict.jackknife_ratio > 2.0)
     verdict.warnings.push_back(
         fmt::format("leaving captures out one at a time scatters {:.1f} times as far as the covariance says: "
-                    "something that "
-                    "is not modelled errs; the covariance is made as large",
+                    "something errs that is not modelled; the covariance is made as large",
                     verdict.jackknife_ratio));
 }
 

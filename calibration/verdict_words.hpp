@@ -25,6 +25,7 @@ namespace thermovox {
 
 /// Puts the weakest direction into words, adds warnings, and withdraws `observable` where the direction is
 /// not known at all.
-void describe(LaserVerdict& verdict, const BundleData& data, const RigEstimate& estimate);
+void describe(LaserVerdict& verdict, const BundleData& data, const RigEstimate& estimate,
+              double range_bias_sigma);
 
 }  // namespace thermovox

@@ -16,6 +16,8 @@ namespace thermovox::bench {
 namespace {
 
 constexpr double kVisibleSigma = 0.1;  // px of the visible camera
+constexpr double kOnBoard = 0.05;      // metres off its plane: ten sigmas and more
+constexpr double kGrazing = 0.0012;    // metres: a grazing beam meets its edge within 2 mm, anywhere there
 
 simulate::CaptureOptions optionsOf(const TrialSet& set, std::uint64_t seed) {
   simulate::CaptureOptions options;
@@ -122,8 +124,10 @@ Matrix6d Trial::bound() const {
   for (std::size_t i = 0; i < scene_.captures().size(); ++i) {
     const simulate::BoardCapture& truth = scene_.captures()[i];
     MeasuredCapture capture{.T_reference_board = T_reference_body * truth.T_body_board};
+    const Pose T_board_laser = capture.T_reference_board.inverse() * trueLaser();
     for (const Eigen::Vector3d& p : input_.captures[i].returns_laser) {
-      if (!truth.spoiled && !truth.edge && scene_.rangeOfPlate(truth, p.normalized()))
+      const bool meets = scene_.rangeOfPlate(truth, p.normalized()) || truth.edge;
+      if (!truth.spoiled && meets && std::abs((T_board_laser * p).z()) < kOnBoard)
         capture.rays.push_back(p.normalized());
     }
     if (set_.edges == TrialSet::Edges::used && !truth.spoiled) {
