@@ -18,9 +18,10 @@ constexpr int kFewestEdges = 60;
 constexpr std::size_t kFewestFrames = 8;
 constexpr std::size_t kStretches = 10;  // of the mission, each in turn left out of the fit
 constexpr double kSignificant = 3.0;    // sigmas
+constexpr double kFollowed = 1.5;       // sigmas: directions in which less was found are left as they are
 constexpr double kLeastGain = 0.02;     // of the cost
 constexpr double kLeastMove = 0.15;     // px, rms over the edges: less is not worth a change
-constexpr double kCommonError = 0.1;    // px: what all edges may err by together (curved and blurred edges)
+constexpr double kCommonError = 0.07;    // px: what edges may err by together, in whatever pattern (curved, blurred)
 constexpr double kWeakTurn = 2.0 * std::numbers::pi / 180.0;  // radians
 constexpr double kWeakMove = 0.03;                            // metres
 constexpr double kWeakTime = 0.05;                            // seconds
@@ -63,6 +64,16 @@ double robustRms(const Matches& all) {
     }
   }
   return weights > 0.0 ? std::sqrt(squares / weights) : 0.0;
+}
+
+/// What the edges say together of one shift that all of them have, 1 / px^2.
+double informationOfPlace(const Matches& all) {
+  double information = 0.0;
+  for (const auto& matches : all) {
+    for (const EdgeMatch& match : matches)
+      if (match.matched) information += match.weight() / (match.sigma_px * match.sigma_px);
+  }
+  return information;
 }
 
 /// The frames cut into stretches of one length, one after the other.
@@ -151,13 +162,12 @@ class Refinement {
     }
     const EdgeMatrix inverse = (sum.information + model_.prior_information).inverse();
     const double shared = (inverse * sum.information).trace();
-    model_.inflation = std::max(1.0, (inverse * spread).trace() / std::max(shared, 1e-9));
+    model_.inflation = std::max(1.0, (inverse * spread).trace() / std::max(shared, 1e-9)) +
+                       kCommonError * kCommonError * informationOfPlace(after_);
     covariance_ = (sum.information / model_.inflation + model_.prior_information).inverse();
   }
 
   void describeEstimate() {
-    const double turn = kCommonError / std::min(scene_.camera.fx(), scene_.camera.fy());
-    covariance_.diagonal().head<3>().array() += turn * turn;
     result_.sigma = covariance_.diagonal().cwiseSqrt();
     result_.rms_px = robustRms(before_);
     static constexpr std::array kNames{"rotation_x",    "rotation_y",    "rotation_z", "translation_x",
@@ -168,18 +178,19 @@ class Refinement {
     }
   }
 
-  /// Only directions in which the change is significant are followed: what is not known is left as it is.
+  /// The change has to be significant in one direction at least. It is followed in those in which it is more
+  /// likely than not an improvement; what is not known is left as it is.
   void chooseDirections() {
     const EdgeChange unit = tolerances();
-    const EdgeMatrix scaled =
-        unit.cwiseInverse().asDiagonal() * covariance_ * unit.cwiseInverse().asDiagonal();
+    const EdgeMatrix scaled = unit.cwiseInverse().asDiagonal() * covariance_ * unit.cwiseInverse().asDiagonal();
     const Eigen::SelfAdjointEigenSolver<EdgeMatrix> eigen(scaled);
+    const EdgeChange along = eigen.eigenvectors().transpose() * result_.change.cwiseQuotient(unit);
+    const EdgeChange significance = along.cwiseAbs().cwiseQuotient(eigen.eigenvalues().cwiseSqrt());
+    if (significance.maxCoeff() < kSignificant) return;
     EdgeMatrix kept = EdgeMatrix::Zero();
     for (int i = 0; i < 7; ++i) {
-      const EdgeChange direction = eigen.eigenvectors().col(i);
-      const double along = direction.dot(result_.change.cwiseQuotient(unit));
-      if (std::abs(along) > kSignificant * std::sqrt(eigen.eigenvalues()[i]))
-        kept += direction * direction.transpose();
+      if (significance[i] > kFollowed)
+        kept += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
     }
     projection_ = unit.asDiagonal() * kept * unit.cwiseInverse().asDiagonal();
     result_.applied = projection_ * result_.change;
