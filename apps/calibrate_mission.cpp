@@ -116,6 +116,7 @@ Json jsonOf(const MissionRefinementArgs& args, const MissionRefinement& found) {
           {"time_offset_found_ms", kThousand * found.applied[6]},
           {"gain", found.gain},
           {"gain_sigma", found.gain_sigma},
+          {"lock", found.lock},
           {"undetermined", found.undetermined},
           {"observable", true},
           {"consistent", found.consistent},

@@ -20,8 +20,8 @@ struct Gathering {
 };
 
 Gathering gatheringFor(LaserKind kind) {
-  if (kind == LaserKind::scan) return {.about_frame = std::chrono::milliseconds(200)};
-  if (kind == LaserKind::beam) return {.frames = 240, .about_frame = std::chrono::seconds(1)};
+  if (kind == LaserKind::scan) return {.about_frame = std::chrono::milliseconds(100)};
+  if (kind == LaserKind::beam) return {.frames = 400, .about_frame = std::chrono::milliseconds(500)};
   return {};
 }
 

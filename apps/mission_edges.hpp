@@ -8,7 +8,7 @@
 
 namespace thermovox {
 
-/// Reads a mission through and gathers what its rig can be checked by: up to 80 frames (240 for a beam)
+/// Reads a mission through and gathers what its rig can be checked by: up to 80 frames (400 for a beam)
 /// spread over it, and about each the depth edges that one laser of the rig met shortly before and after.
 /// `rig` says where camera and laser are; the mission's own rig how the laser's files are read. Memory is
 /// that of the edges, whatever the mission's length. Precondition: the mission has frames, the rig a thermal

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibration/edge_agreement.hpp"
 #include "projection/error.hpp"
 
 namespace thermovox {
@@ -21,7 +22,12 @@ constexpr double kSignificant = 3.0;    // sigmas
 constexpr double kFollowed = 1.5;       // sigmas: directions in which less was found are left as they are
 constexpr double kLeastGain = 0.02;     // of the cost
 constexpr double kLeastMove = 0.15;     // px, rms over the edges: less is not worth a change
-constexpr double kCommonError = 0.07;    // px: what edges may err by together, in whatever pattern (curved, blurred)
+constexpr double kCommonError =
+    0.07;                        // px: what edges may err by together, in whatever pattern (curved, blurred)
+constexpr double kLocked = 1.5;  // times what edges agree by chance: less is no alignment
+constexpr double kLost = 1.35;   // less than this, and the rig cannot be called consistent
+constexpr double kTimeStep = 0.015;  // seconds; the stamps are first tried so far apart
+constexpr int kTimeSteps = 10;       // either way
 constexpr double kWeakTurn = 2.0 * std::numbers::pi / 180.0;  // radians
 constexpr double kWeakMove = 0.03;                            // metres
 constexpr double kWeakTime = 0.05;                            // seconds
@@ -46,53 +52,9 @@ EdgeMatrix priorCovariance(const Laser& laser) {
   return covariance;
 }
 
-using Matches = std::vector<std::vector<EdgeMatch>>;  // of each frame
-
-Matches matchAll(const EdgeScene& scene, const EdgeChange& change) {
-  Matches matches;
-  for (const EdgeFrame& frame : scene.frames) matches.push_back(matchEdges(scene, frame, change, kFinest));
-  return matches;
-}
-
-double robustRms(const Matches& all) {
-  double squares = 0.0, weights = 0.0;
-  for (const auto& matches : all) {
-    for (const EdgeMatch& match : matches) {
-      if (!match.matched) continue;
-      squares += match.weight() * match.residual_px * match.residual_px;
-      weights += match.weight();
-    }
-  }
-  return weights > 0.0 ? std::sqrt(squares / weights) : 0.0;
-}
-
-/// What the edges say together of one shift that all of them have, 1 / px^2.
-double informationOfPlace(const Matches& all) {
-  double information = 0.0;
-  for (const auto& matches : all) {
-    for (const EdgeMatch& match : matches)
-      if (match.matched) information += match.weight() / (match.sigma_px * match.sigma_px);
-  }
-  return information;
-}
-
 /// The frames cut into stretches of one length, one after the other.
 std::size_t stretchOf(std::size_t frame, std::size_t frames) {
   return frame * std::min(kStretches, frames) / frames;
-}
-
-/// How the cost of a stretch changes.
-struct StretchGain {
-  double before = 0.0, after = 0.0;
-};
-
-/// Over the edges in view both before and after.
-void addGain(const std::vector<EdgeMatch>& before, const std::vector<EdgeMatch>& after, StretchGain& gain) {
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    if (!before[i].in_view || !after[i].in_view || !(before[i].matched || after[i].matched)) continue;
-    gain.before += before[i].cost();
-    gain.after += after[i].cost();
-  }
 }
 
 /// The one estimate, and what it is tested by.
@@ -138,12 +100,29 @@ class Refinement {
 
   /// Twice: how far the edges err together is known only after a first fit.
   void fit() {
-    result_.change = fitWithout(kStretches, EdgeChange::Zero(), 0);
+    const EdgeChange near = fitWithout(kStretches, EdgeChange::Zero(), 0);
+    const EdgeChange far = fitWithout(kStretches, bestStamps(), 0);
+    const bool farther = agreementOf(scene_, far, kFinest) > agreementOf(scene_, near, kFinest);
+    result_.change = farther ? far : near;
     for (int round = 0; round < 2; ++round) {
       inflate();
       result_.change = fitWithout(kStretches, result_.change, kFinest);
     }
     inflate();
+  }
+
+  /// In a turn a late frame is off by many pixels, more than edges are looked for: stamps are tried one by
+  /// one.
+  [[nodiscard]] EdgeChange bestStamps() const {
+    EdgeChange best = EdgeChange::Zero();
+    double most = agreementOf(scene_, best, 1);
+    for (int step = -kTimeSteps; step <= kTimeSteps; ++step) {
+      EdgeChange change = EdgeChange::Zero();
+      change[6] = step * kTimeStep;
+      const double agreement = agreementOf(scene_, change, 1);
+      if (agreement > most) most = agreement, best = change;
+    }
+    return best;
   }
 
   /// By the spread of the stretches' gradients (the middle of the "sandwich" of H. White, 1982).
@@ -170,6 +149,7 @@ class Refinement {
   void describeEstimate() {
     result_.sigma = covariance_.diagonal().cwiseSqrt();
     result_.rms_px = robustRms(before_);
+    result_.lock = lockOf(scene_, result_.change);
     static constexpr std::array kNames{"rotation_x",    "rotation_y",    "rotation_z", "translation_x",
                                        "translation_y", "translation_z", "time_offset"};
     for (int i = 0; i < 7; ++i) {
@@ -178,21 +158,23 @@ class Refinement {
     }
   }
 
-  /// The change has to be significant in one direction at least. It is followed in those in which it is more
-  /// likely than not an improvement; what is not known is left as it is.
+  /// The change of the rig has to be significant in one direction at least, that of the stamps for itself. It
+  /// is followed in the directions in which it is likely to be an improvement; what is not known is left as
+  /// it is.
   void chooseDirections() {
-    const EdgeChange unit = tolerances();
-    const EdgeMatrix scaled = unit.cwiseInverse().asDiagonal() * covariance_ * unit.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<EdgeMatrix> eigen(scaled);
-    const EdgeChange along = eigen.eigenvectors().transpose() * result_.change.cwiseQuotient(unit);
-    const EdgeChange significance = along.cwiseAbs().cwiseQuotient(eigen.eigenvalues().cwiseSqrt());
-    if (significance.maxCoeff() < kSignificant) return;
-    EdgeMatrix kept = EdgeMatrix::Zero();
-    for (int i = 0; i < 7; ++i) {
-      if (significance[i] > kFollowed)
+    const Eigen::Matrix<double, 6, 1> unit = tolerances().head<6>();
+    const Matrix6d to_unit = unit.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(to_unit * covariance_.topLeftCorner<6, 6>() *
+                                                        to_unit);
+    const Vector6d along = eigen.eigenvectors().transpose() * to_unit * result_.change.head<6>();
+    const Vector6d significance = along.cwiseAbs().cwiseQuotient(eigen.eigenvalues().cwiseSqrt());
+    Matrix6d kept = Matrix6d::Zero();
+    for (int i = 0; i < 6; ++i) {
+      if (significance.maxCoeff() > kSignificant && significance[i] > kFollowed)
         kept += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
     }
-    projection_ = unit.asDiagonal() * kept * unit.cwiseInverse().asDiagonal();
+    projection_.topLeftCorner<6, 6>() = unit.asDiagonal() * kept * to_unit;
+    projection_(6, 6) = std::abs(result_.change[6]) > kSignificant * result_.sigma[6] ? 1.0 : 0.0;
     result_.applied = projection_ * result_.change;
   }
 
@@ -200,53 +182,58 @@ class Refinement {
   void testOnOthers() {
     if (result_.applied.isZero()) return;
     const std::size_t frames = scene_.frames.size(), count = std::min(kStretches, frames);
-    std::vector<StretchGain> gains(count);
-    StretchGain total;
+    std::vector<EdgeGain> gains(count);
+    EdgeGain total;
     for (std::size_t stretch = 0; stretch < count; ++stretch) {
       const EdgeChange change = projection_ * fitWithout(stretch, result_.change, kFinest);
       for (std::size_t i = 0; i < frames; ++i) {
         if (stretchOf(i, frames) != stretch) continue;
-        addGain(before_[i], matchEdges(scene_, scene_.frames[i], change, kFinest), gains[stretch]);
+        gains[stretch].add(before_[i], matchEdges(scene_, scene_.frames[i], change, kFinest));
       }
       total.before += gains[stretch].before, total.after += gains[stretch].after;
     }
     const auto n = static_cast<double>(count);
     const double mean = (total.before - total.after) / n;
     double squares = 0.0;
-    for (const StretchGain& gain : gains) squares += std::pow(gain.before - gain.after - mean, 2);
+    for (const EdgeGain& gain : gains) squares += std::pow(gain.before - gain.after - mean, 2);
     result_.gain = (total.before - total.after) / std::max(total.before, 1e-9);
     result_.gain_sigma = std::sqrt(squares * n / (n - 1.0)) / std::max(total.before, 1e-9);
   }
 
-  [[nodiscard]] double moveOf(const EdgeChange& change) const {
-    double squares = 0.0;
-    int count = 0;
-    for (const auto& matches : before_) {
-      for (const EdgeMatch& match : matches) {
-        if (!match.matched) continue;
-        const double move = match.jacobian * change;
-        squares += move * move, ++count;
-      }
-    }
-    return std::sqrt(squares / std::max(1, count));
-  }
-
   void decide() {
     const bool better = result_.gain > kLeastGain && result_.gain > kSignificant * result_.gain_sigma;
-    if (!better || moveOf(result_.applied) < kLeastMove) result_.applied.setZero();
-    result_.consistent = result_.applied.isZero();
+    if (!better || result_.lock < kLocked || moveOf(before_, result_.applied) < kLeastMove)
+      result_.applied.setZero();
     EdgeChange of_rig = result_.applied;
     of_rig[6] = 0.0;
-    result_.refined = moveOf(of_rig) > kLeastMove;
-    if (!result_.refined) of_rig.setZero();
+    result_.refined = moveOf(before_, of_rig) > kLeastMove;
+    if (!result_.refined) result_.applied.head<6>().setZero(), of_rig.setZero();
+    result_.consistent = result_.applied.isZero() && lockOf(scene_, EdgeChange::Zero()) > kLost;
     result_.rms_px_refined = robustRms(matchAll(scene_, result_.applied));
     result_.T_body_laser = changedPose(scene_.T_body_laser, of_rig);
     result_.covariance_body_laser = covariance_.topLeftCorner<6, 6>();
+    warn();
+  }
+
+  void warn() {
+    if (!result_.consistent && result_.applied.isZero())
+      result_.warnings.emplace_back(
+          "the edges of depth and of temperature do not agree, and no change of the rig was found that "
+          "brings them "
+          "together for certain: check rig, lens, clocks and trajectory");
+    if (!result_.refined || laser_.covariance_body_laser.isZero()) return;
+    const EdgeChange known = prior_.diagonal().cwiseSqrt();
+    const double most = result_.applied.head<6>().cwiseAbs().cwiseQuotient(known.head<6>()).maxCoeff();
+    if (most > kSignificant)
+      result_.warnings.push_back(fmt::format(
+          "the change is {:.1f} times the sigma of covariance_body_laser: has the laser or the camera been "
+          "moved since its calibration?",
+          most));
   }
 
   const EdgeScene& scene_;
   const Laser& laser_;
-  Matches before_, after_;
+  EdgeMatches before_, after_;
   EdgeMatrix prior_, covariance_ = EdgeMatrix::Zero();
   EdgeMatrix projection_ = EdgeMatrix::Zero();  ///< onto the directions that are followed
   AlignmentModel model_;

@@ -21,9 +21,11 @@ struct MissionRefinement {
   /// The part of the change that is significant, and 0 where the mission gives no reason to change the rig.
   EdgeChange applied = EdgeChange::Zero();
   bool refined = false;    ///< `applied` moves the laser
-  bool consistent = true;  ///< nothing is to be changed, the time offset included
+  bool consistent = true;  ///< edges agree, and nothing is to be changed, the stamps included
   Pose T_body_laser;       ///< with `applied`
   Matrix6d covariance_body_laser = Matrix6d::Zero();
+  double lock =
+      0.0;  ///< with `change`: how well edges agree, over what they do by chance (edge_agreement.hpp)
   double gain = 0.0;        ///< of the robust cost, on stretches that the fit had not seen, as a share of it
   double gain_sigma = 0.0;  ///< by the stretches' spread
   std::vector<std::string> undetermined;  ///< of rotation_x .. translation_z and time_offset
