@@ -19,7 +19,7 @@ constexpr int kFewestEdges = 60;
 constexpr std::size_t kFewestFrames = 8;
 constexpr std::size_t kStretches = 10;  // of the mission, each in turn left out of the fit
 constexpr double kSignificant = 3.0;    // sigmas
-constexpr double kFollowed = 1.5;       // sigmas: directions in which less was found are left as they are
+constexpr double kDoubted = 1.4;        // sigmas: directions in which less was found are left as they are
 constexpr double kLeastGain = 0.02;     // of the cost
 constexpr double kLeastMove = 0.15;     // px, rms over the edges: less is not worth a change
 constexpr double kCommonError =
@@ -158,9 +158,9 @@ class Refinement {
     }
   }
 
-  /// The change of the rig has to be significant in one direction at least, that of the stamps for itself. It
-  /// is followed in the directions in which it is likely to be an improvement; what is not known is left as
-  /// it is.
+  /// The change of the rig has to be significant in one direction at least, that of the stamps for itself.
+  /// Each direction is followed by how sure it is, 1 - (k sigma / found)^2 (the positive part of W. James and
+  /// C. Stein, 1961): what is not known is left as it is.
   void chooseDirections() {
     const Eigen::Matrix<double, 6, 1> unit = tolerances().head<6>();
     const Matrix6d to_unit = unit.cwiseInverse().asDiagonal();
@@ -168,11 +168,10 @@ class Refinement {
                                                         to_unit);
     const Vector6d along = eigen.eigenvectors().transpose() * to_unit * result_.change.head<6>();
     const Vector6d significance = along.cwiseAbs().cwiseQuotient(eigen.eigenvalues().cwiseSqrt());
-    Matrix6d kept = Matrix6d::Zero();
-    for (int i = 0; i < 6; ++i) {
-      if (significance.maxCoeff() > kSignificant && significance[i] > kFollowed)
-        kept += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
-    }
+    Vector6d share = Vector6d::Zero();
+    if (significance.maxCoeff() > kSignificant)
+      share = (1.0 - (kDoubted / significance.array().max(kDoubted)).square()).matrix();
+    const Matrix6d kept = eigen.eigenvectors() * share.asDiagonal() * eigen.eigenvectors().transpose();
     projection_.topLeftCorner<6, 6>() = unit.asDiagonal() * kept * to_unit;
     projection_(6, 6) = std::abs(result_.change[6]) > kSignificant * result_.sigma[6] ? 1.0 : 0.0;
     result_.applied = projection_ * result_.change;
@@ -235,7 +234,7 @@ class Refinement {
   const Laser& laser_;
   EdgeMatches before_, after_;
   EdgeMatrix prior_, covariance_ = EdgeMatrix::Zero();
-  EdgeMatrix projection_ = EdgeMatrix::Zero();  ///< onto the directions that are followed
+  EdgeMatrix projection_ = EdgeMatrix::Zero();  ///< what of a change is followed
   AlignmentModel model_;
   MissionRefinement result_;
 };
