@@ -99,7 +99,8 @@ std::array<double, 3> three(const EdgeChange& change, int first, double factor) 
   return {factor * change[first], factor * change[first + 1], factor * change[first + 2]};
 }
 
-Json jsonOf(const MissionRefinementArgs& args, const MissionRefinement& found) {
+Json jsonOf(const MissionRefinementArgs& args, const Question& question, const MissionRefinement& found) {
+  const bool roll = question.rig.lasers[question.laser].kind != LaserKind::beam;
   return {{"mission", args.mission.string()},
           {"frames", found.frames},
           {"edges", found.edges},
@@ -119,6 +120,7 @@ Json jsonOf(const MissionRefinementArgs& args, const MissionRefinement& found) {
           {"lock", found.lock},
           {"undetermined", found.undetermined},
           {"observable", true},
+          {"roll_observable", roll},
           {"consistent", found.consistent},
           {"refined", found.refined},
           {"warnings", found.warnings}};
@@ -202,7 +204,7 @@ void runMissionRefinement(const MissionRefinementArgs& args) {
   if (!args.refined.empty()) writeRefined(args, question, found);
   for (const std::string& warning : found.warnings) spdlog::warn("{}", warning);
   if (args.output == MissionRefinementArgs::Output::json) {
-    std::cout << jsonOf(args, found).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    std::cout << jsonOf(args, question, found).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     return;
   }
   printTable(args, found);

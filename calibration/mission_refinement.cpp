@@ -38,16 +38,23 @@ EdgeChange tolerances() {
   return (EdgeChange() << turn, turn, turn, 0.005, 0.005, 0.005, 0.005).finished();
 }
 
+/// Takes a beam's roll about itself out of rotations along the body's axes: it moves no return.
+Eigen::Matrix3d withoutRoll(const Laser& laser) {
+  if (laser.kind != LaserKind::beam) return Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d axis = laser.T_body_laser.rotation * Eigen::Vector3d::UnitX();
+  return Eigen::Matrix3d::Identity() - axis * axis.transpose();
+}
+
 EdgeMatrix priorCovariance(const Laser& laser) {
   EdgeMatrix covariance = EdgeMatrix::Zero();
   if (laser.covariance_body_laser.isZero()) {
-    covariance.diagonal().head<3>().setConstant(kWeakTurn * kWeakTurn);
+    covariance.topLeftCorner<3, 3>() = kWeakTurn * kWeakTurn * withoutRoll(laser);
     covariance.diagonal().segment<3>(3).setConstant(kWeakMove * kWeakMove);
   } else {
     covariance.topLeftCorner<6, 6>() = laser.covariance_body_laser;
-    // A beam's roll has none: it is held.
-    covariance.diagonal().head<6>() += 1e-6 * tolerances().head<6>().cwiseAbs2();
   }
+  // What has none, a beam's roll, is held.
+  covariance.diagonal().head<6>() += 1e-6 * tolerances().head<6>().cwiseAbs2();
   covariance(6, 6) = kWeakTime * kWeakTime;
   return covariance;
 }
@@ -210,8 +217,16 @@ class Refinement {
     result_.consistent = result_.applied.isZero() && lockOf(scene_, EdgeChange::Zero()) > kLost;
     result_.rms_px_refined = robustRms(matchAll(scene_, result_.applied));
     result_.T_body_laser = changedPose(scene_.T_body_laser, of_rig);
-    result_.covariance_body_laser = covariance_.topLeftCorner<6, 6>();
+    result_.covariance_body_laser = covarianceOf(of_rig.head<6>());
     warn();
+  }
+
+  /// Of what was applied: that of the estimate, and what of the estimate was not followed.
+  [[nodiscard]] Matrix6d covarianceOf(const Vector6d& applied) const {
+    const Vector6d left = result_.change.head<6>() - applied;
+    Matrix6d keep = Matrix6d::Identity();
+    keep.topLeftCorner<3, 3>() = withoutRoll(laser_);
+    return keep * (covariance_.topLeftCorner<6, 6>() + left * left.transpose()) * keep.transpose();
   }
 
   void warn() {

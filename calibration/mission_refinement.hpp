@@ -23,7 +23,7 @@ struct MissionRefinement {
   bool refined = false;    ///< `applied` moves the laser
   bool consistent = true;  ///< edges agree, and nothing is to be changed, the stamps included
   Pose T_body_laser;       ///< with `applied`
-  Matrix6d covariance_body_laser = Matrix6d::Zero();
+  Matrix6d covariance_body_laser = Matrix6d::Zero();  ///< of that pose; a beam's without its roll, rank 5
   double lock =
       0.0;  ///< with `change`: how well edges agree, over what they do by chance (edge_agreement.hpp)
   double gain = 0.0;        ///< of the robust cost, on stretches that the fit had not seen, as a share of it

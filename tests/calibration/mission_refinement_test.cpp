@@ -15,6 +15,12 @@ Eigen::Vector3d turnBetween(const Pose& a, const Pose& b) {
   return turn.angle() * turn.axis();
 }
 
+Laser cloudLaser() {
+  Laser laser;
+  laser.kind = LaserKind::cloud;
+  return laser;
+}
+
 /// A rig that says that its laser is elsewhere.
 EdgeScene moved(EdgeScene scene, const Eigen::Vector3d& w, const Eigen::Vector3d& v) {
   EdgeChange change = EdgeChange::Zero();
@@ -80,7 +86,7 @@ TEST(MissionRefinement, ATrueRigStaysAsItIs) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE(seed);
     world.seed = seed;
-    const MissionRefinement found = refineOnMission(world.scene(), Laser());
+    const MissionRefinement found = refineOnMission(world.scene(), cloudLaser());
     EXPECT_FALSE(found.refined);
     EXPECT_TRUE(found.consistent);
     EXPECT_TRUE(found.applied.isZero());
@@ -102,7 +108,7 @@ TEST(MissionRefinement, FindsWhereTheLaserReallyIs) {
   for (int trial = 0; trial < 4; ++trial) {
     SCOPED_TRACE(trial);
     const EdgeScene scene = moved(truth, kDegree * direction(), 0.02 * direction());
-    const MissionRefinement found = refineOnMission(scene, Laser());
+    const MissionRefinement found = refineOnMission(scene, cloudLaser());
     EXPECT_TRUE(found.refined);
     EXPECT_FALSE(found.consistent);
     EXPECT_LT(found.rms_px_refined, found.rms_px);
@@ -121,7 +127,7 @@ TEST(MissionRefinement, ASmallErrorIsNeverMadeALargerOne) {
       SCOPED_TRACE(sign * size);
       const Eigen::Vector3d turn = sign * size * kDegree * Eigen::Vector3d(0.5, 0.6, -0.6);
       const EdgeScene scene = moved(truth, turn, sign * size * Eigen::Vector3d(0.01, -0.01, 0.02));
-      const MissionRefinement found = refineOnMission(scene, Laser());
+      const MissionRefinement found = refineOnMission(scene, cloudLaser());
       EXPECT_LE(pixelError(truth, found.T_body_laser), pixelError(truth, scene.T_body_laser));
     }
   }
@@ -129,7 +135,7 @@ TEST(MissionRefinement, ASmallErrorIsNeverMadeALargerOne) {
 
 TEST(MissionRefinement, FindsLateStampsAndLeavesTheRigAlone) {
   const PanelWorld world;
-  const MissionRefinement found = refineOnMission(world.scene(30, 0.08), Laser());
+  const MissionRefinement found = refineOnMission(world.scene(30, 0.08), cloudLaser());
   EXPECT_FALSE(found.refined);
   EXPECT_FALSE(found.consistent);
   EXPECT_EQ(found.T_body_laser, world.T_body_laser);
@@ -148,7 +154,7 @@ TEST(MissionRefinement, ImagesOfSomethingElseChangeNothing) {
   }
   const EdgeScene unrelated = other.scene();
   for (std::size_t i = 0; i < scene.frames.size(); ++i) scene.frames[i].thermal = unrelated.frames[i].thermal;
-  const MissionRefinement found = refineOnMission(scene, Laser());
+  const MissionRefinement found = refineOnMission(scene, cloudLaser());
   EXPECT_FALSE(found.refined);
   EXPECT_FALSE(found.consistent) << "lock " << found.lock;
   EXPECT_EQ(found.T_body_laser, world.T_body_laser);
@@ -157,7 +163,7 @@ TEST(MissionRefinement, ImagesOfSomethingElseChangeNothing) {
 
 TEST(MissionRefinement, AGoodCovarianceIsKeptTo) {
   const PanelWorld world;
-  Laser laser;
+  Laser laser = cloudLaser();
   laser.covariance_body_laser.diagonal() << 1e-8, 1e-8, 1e-8, 1e-8, 1e-8, 1e-8;
   const MissionRefinement found = refineOnMission(world.scene(), laser);
   EXPECT_FALSE(found.refined);
@@ -165,13 +171,24 @@ TEST(MissionRefinement, AGoodCovarianceIsKeptTo) {
   EXPECT_EQ(found.undetermined.size(), 6U) << "the mission adds nothing to what is known";
 }
 
+TEST(MissionRefinement, ABeamsRollIsHeld) {
+  const PanelWorld world;
+  Laser laser;
+  laser.kind = LaserKind::beam;
+  laser.T_body_laser = world.T_body_laser;
+  const MissionRefinement found = refineOnMission(world.scene(), laser);
+  const Eigen::Vector3d axis = world.T_body_laser.rotation * Eigen::Vector3d::UnitX();
+  EXPECT_NEAR(axis.dot(found.change.head<3>()), 0.0, 1e-4);
+  EXPECT_NEAR(axis.dot(found.covariance_body_laser.topLeftCorner<3, 3>() * axis), 0.0, 1e-12);
+}
+
 TEST(MissionRefinement, TooFewEdgesAreRefused) {
   const PanelWorld world;
-  EXPECT_THROW(static_cast<void>(refineOnMission(world.scene(3), Laser())), UnobservableError);
+  EXPECT_THROW(static_cast<void>(refineOnMission(world.scene(3), cloudLaser())), UnobservableError);
   EdgeScene scene = world.scene(10);
   for (EdgeFrame& frame : scene.frames) frame.edges.resize(2);
   try {
-    static_cast<void>(refineOnMission(scene, Laser()));
+    static_cast<void>(refineOnMission(scene, cloudLaser()));
     FAIL() << "expected UnobservableError";
   } catch (const UnobservableError& error) {
     EXPECT_NE(std::string(error.what()).find("no temperature edges at depth edges"), std::string::npos)
