@@ -208,8 +208,11 @@ class Refinement {
 
   void decide() {
     const bool better = result_.gain > kLeastGain && result_.gain > kSignificant * result_.gain_sigma;
-    if (!better || result_.lock < kLocked || moveOf(before_, result_.applied) < kLeastMove)
+    const double move = moveOf(before_, result_.applied);
+    if (!better || result_.lock < kLocked || move < kLeastMove) {
+      if (move > kLeastMove) doubt(move);
       result_.applied.setZero();
+    }
     EdgeChange of_rig = result_.applied;
     of_rig[6] = 0.0;
     result_.refined = moveOf(before_, of_rig) > kLeastMove;
@@ -227,6 +230,13 @@ class Refinement {
     Matrix6d keep = Matrix6d::Identity();
     keep.topLeftCorner<3, 3>() = withoutRoll(laser_);
     return keep * (covariance_.topLeftCorner<6, 6>() + left * left.transpose()) * keep.transpose();
+  }
+
+  void doubt(double move) {
+    result_.warnings.push_back(fmt::format(
+        "a change that moves edges by {:.1f} px was found and not followed: parts of the mission do not "
+        "confirm what the others say (gain {:.0f} +- {:.0f} %); a longer mission may tell",
+        move, 100.0 * result_.gain, 100.0 * result_.gain_sigma));
   }
 
   void warn() {
