@@ -8,7 +8,7 @@ packages_build=(
   g++ cmake ninja-build
   libeigen3-dev libpcl-dev liboctomap-dev libopencv-dev
   libyaml-cpp-dev libtiff-dev libdeflate-dev libsqlite3-dev libzstd-dev
-  libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev libceres-dev
+  libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev
 )
 # What the tests and benchmarks need besides. ccache and mold are used where they are found.
 packages_test=(libgtest-dev libgmock-dev libbenchmark-dev libcharls-dev libbz2-dev libopenvdb-dev python3 sqlite3 ccache mold)

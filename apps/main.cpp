@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   thermovox::addReport(app);
   thermovox::addLocate(app);
   thermovox::addExport(app);
+  thermovox::addCalibrate(app);
   thermovox::addImage(app);
   thermovox::addInfo(app);
   thermovox::addOverlay(app);

@@ -15,6 +15,7 @@ void addHotspots(CLI::App& app);
 void addDiff(CLI::App& app);
 void addReport(CLI::App& app);
 void addExport(CLI::App& app);
+void addCalibrate(CLI::App& app);
 void addImage(CLI::App& app);
 void addInfo(CLI::App& app);
 void addOverlay(CLI::App& app);

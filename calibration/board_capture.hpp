@@ -16,7 +16,7 @@ using BoardView = std::vector<BoardCorner>;
 struct BoardCapture {
   std::string name;                             ///< for reports: the laser's file, else an image's
   std::vector<std::optional<BoardView>> views;  ///< one a camera, the reference camera first
-  std::vector<Eigen::Vector3d> returns_laser;   ///< metres, laser frame, in the order of the file; may be none
+  std::vector<Eigen::Vector3d> returns_laser;  ///< metres, laser frame, in the order of the file; may be none
 };
 
 }  // namespace thermovox

@@ -101,24 +101,47 @@ std::optional<std::vector<BoardCorner>> cornersOf(const BoardImage& image, const
   return corners;
 }
 
+/// Columns to the right and rows down as one looks at the board: what is found may be its mirror image.
+Pixels unmirrored(Pixels pixels, const ChessboardGrid& grid) {
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const cv::Point2f along = pixels[columns - 1] - pixels[0],
+                    down = pixels[pixels.size() - columns] - pixels[0];
+  if (along.cross(down) > 0.0F) return pixels;
+  for (auto row = pixels.begin(); row != pixels.end(); row += grid.columns)
+    std::reverse(row, row + grid.columns);
+  return pixels;
+}
+
+/// The grid in an image, by the first of all searches and versions of it that finds one.
+std::optional<Pixels> searched(const cv::Mat& image, const ChessboardGrid& grid) {
+  const SearchVersions all = searchVersions(image);
+  std::vector<cv::Mat> versions = all.normalised;
+  versions.push_back(all.plain);
+  const Pixels board = cornersOnBoard(grid);
+  for (const auto search : {&gridIn, &gridOfOldSearch}) {
+    for (const cv::Mat& version : versions) {
+      std::optional<Pixels> pixels = search(version, grid);
+      if (pixels && isFlat(*pixels, board) && alternates(versions.front(), *pixels, grid))
+        return unmirrored(*std::move(pixels), grid);
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::vector<BoardCorner>> findChessboard(const BoardImage& image, const ChessboardGrid& grid) {
   checkSearch(image, grid.columns, grid.rows);
-  const SearchVersions all = searchVersions(asMat(image));
-  std::vector<cv::Mat> versions = all.normalised;
-  versions.push_back(all.plain);
-  const Pixels board = cornersOnBoard(grid);
-  const auto isBoard = [&](const std::optional<Pixels>& pixels) {
-    return pixels && isFlat(*pixels, board) && alternates(versions.front(), *pixels, grid);
-  };
-  for (const auto search : {&gridIn, &gridOfOldSearch}) {
-    for (const cv::Mat& version : versions) {
-      const std::optional<Pixels> pixels = search(version, grid);
-      if (isBoard(pixels)) return cornersOf(image, *pixels, grid);
-    }
+  const cv::Mat whole = asMat(image);
+  const int shrink = reduction(whole);
+  std::optional<Pixels> pixels;
+  if (shrink > 1) {
+    pixels = searched(shrunk(whole, shrink), grid);
+    if (pixels) pixels = unshrunk(*std::move(pixels), shrink);
   }
-  return std::nullopt;
+  if (!pixels) pixels = searched(whole, grid);
+  if (!pixels) return std::nullopt;
+  return cornersOf(image, *pixels, grid);
 }
 
 }  // namespace thermovox

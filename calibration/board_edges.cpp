@@ -11,22 +11,22 @@
 namespace thermovox {
 namespace {
 
-constexpr double kOnBoard = 4.5;      // sigmas off the plane
-constexpr double kBehind = 0.06;      // metres behind it: another surface
-constexpr double kNear = 0.03;        // metres: a crossing is so near to its edge
-constexpr double kDoubt = 0.03;       // metres: the next edge is so much farther
-constexpr double kSpot = 0.001;       // metres, one sigma: what is unsharp besides the gap of the rays
-constexpr double kBeamSpot = 0.006;   // radians, one sigma: a beam by itself has no neighbours
-constexpr double kWidestGap = 0.05;   // metres between the two rays on the board
-constexpr double kGrazing = 0.34;     // cosine of the incidence
+constexpr double kOnBoard = 4.5;     // sigmas off the plane
+constexpr double kBehind = 0.06;     // metres behind it: another surface
+constexpr double kNear = 0.03;       // metres: a crossing is so near to its edge
+constexpr double kDoubt = 0.03;      // metres: the next edge is so much farther
+constexpr double kSpot = 0.001;      // metres, one sigma: what is unsharp besides the gap of the rays
+constexpr double kBeamSpot = 0.006;  // radians, one sigma: a beam by itself has no neighbours
+constexpr double kWidestGap = 0.05;  // metres between the two rays on the board
+constexpr double kGrazing = 0.34;    // cosine of the incidence
 
 enum class Where { on, behind, neither };
 
 /// A return against the board.
 struct Sighting {
-  Eigen::Vector3d ray;   ///< unit, laser frame
-  Eigen::Vector2d hit;   ///< of the ray on the board's plane, metres
-  double cosine = 0.0;   ///< of the incidence
+  Eigen::Vector3d ray;  ///< unit, laser frame
+  Eigen::Vector2d hit;  ///< of the ray on the board's plane, metres
+  double cosine = 0.0;  ///< of the incidence
   Where where = Where::neither;
 };
 
@@ -109,7 +109,8 @@ std::vector<EdgeCrossing> scanCrossings(const ReturnSet& returns, const Plate& p
       const bool out = a.where == Where::on && b.where == Where::behind;
       const bool in = a.where == Where::behind && b.where == Where::on;
       if (!out && !in) continue;
-      if (const auto crossing = out ? plate.between(a, b) : plate.between(b, a)) crossings.push_back(*crossing);
+      if (const auto crossing = out ? plate.between(a, b) : plate.between(b, a))
+        crossings.push_back(*crossing);
     }
   }
   return crossings;

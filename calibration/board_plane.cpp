@@ -50,7 +50,9 @@ std::optional<Eigen::Vector3d> fitted(const std::vector<Ray>& rays, int dimensio
   return plane;
 }
 
-double residualOf(const Ray& ray, const Eigen::Vector3d& q) { return ray.range - 1.0 / q.dot(ray.direction); }
+double residualOf(const Ray& ray, const Eigen::Vector3d& q) {
+  return ray.range - 1.0 / q.dot(ray.direction);
+}
 
 double robustSigma(const std::vector<Ray>& rays, const Eigen::Vector3d& q) {
   std::vector<double> sizes;
@@ -58,6 +60,34 @@ double robustSigma(const std::vector<Ray>& rays, const Eigen::Vector3d& q) {
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   return 1.4826 * *middle;
+}
+
+/// How many times the variance of a fit is larger than that of rays that err independently: those of one
+/// channel of a multi-beam laser err together. The mean square of the channels' means over that within them
+/// (an analysis of variance); 1 where chance explains it, or rays do not come in channels.
+double channelEffect(const std::vector<Ray>& rays, const Eigen::Vector3d& q) {
+  constexpr double kChannel = 0.002;              // radians of elevation between two of them
+  constexpr std::size_t kFewest = 4;              // channels, and rays in each on the average
+  constexpr double kChance = 2.0;                 // a ratio that chance makes
+  std::vector<std::pair<double, double>> sorted;  // elevation, residual
+  for (const Ray& ray : rays) sorted.emplace_back(std::asin(ray.direction.z()), residualOf(ray, q));
+  std::sort(sorted.begin(), sorted.end());
+  double between = 0.0, within = 0.0;
+  std::size_t channels = 0;
+  for (std::size_t first = 0, i = 1; i <= sorted.size(); ++i) {
+    if (i < sorted.size() && sorted[i].first - sorted[i - 1].first < kChannel) continue;
+    double mean = 0.0;
+    const auto count = static_cast<double>(i - first);
+    for (std::size_t k = first; k < i; ++k) mean += sorted[k].second / count;
+    for (std::size_t k = first; k < i; ++k) within += std::pow(sorted[k].second - mean, 2);
+    between += count * mean * mean;
+    ++channels;
+    first = i;
+  }
+  if (channels < kFewest || sorted.size() < (kFewest + 1) * channels) return 1.0;
+  const double freedom = static_cast<double>(channels) - 3.0;
+  const double ratio = (between / freedom) / (within / static_cast<double>(sorted.size() - channels));
+  return ratio > kChance ? ratio : 1.0;
 }
 
 /// The rays whose directions lie farthest out: in the middle, then each time the one farthest from those.
@@ -81,14 +111,15 @@ std::vector<std::size_t> spread(const std::vector<Ray>& rays, std::size_t count)
 
 /// See PlaneMoments: the decomposition of [rho^2 u, 1 | e] / sigma.
 void decompose(PlaneMoments& moments, const std::vector<Ray>& rays) {
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::max<Eigen::Index>(5, static_cast<Eigen::Index>(rays.size())), 5);
+  Eigen::MatrixXd rows =
+      Eigen::MatrixXd::Zero(std::max<Eigen::Index>(5, static_cast<Eigen::Index>(rays.size())), 5);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Ray& ray = rays[i];
     const double rho = 1.0 / moments.inverse_plane.dot(ray.direction);
     rows.row(static_cast<Eigen::Index>(i)) << rho * rho * ray.direction.transpose(), 1.0,
         residualOf(ray, moments.inverse_plane);
   }
-  rows /= moments.sigma;
+  rows /= moments.sigma * std::sqrt(moments.channel_effect);
   const Eigen::MatrixXd triangle = Eigen::HouseholderQR<Eigen::MatrixXd>(rows).matrixQR().topRows(5);
   const Eigen::MatrixXd upper = triangle.triangularView<Eigen::Upper>();
   moments.slope = upper.topLeftCorner<4, 4>();
@@ -106,9 +137,8 @@ std::optional<PlaneMoments> planeMoments(const std::vector<Eigen::Vector3d>& ret
     plane = fitted(rays, dimensions);
     if (!plane) return std::nullopt;
     const double gate = kOutlier * std::max({robustSigma(rays, *plane), 0.1 * range_sigma, 1e-5});
-    const auto kept = std::remove_if(rays.begin(), rays.end(), [&](const Ray& ray) {
-      return std::abs(residualOf(ray, *plane)) > gate;
-    });
+    const auto kept = std::remove_if(
+        rays.begin(), rays.end(), [&](const Ray& ray) { return std::abs(residualOf(ray, *plane)) > gate; });
     if (kept == rays.end()) break;
     rays.erase(kept, rays.end());
   }
@@ -120,6 +150,7 @@ std::optional<PlaneMoments> planeMoments(const std::vector<Eigen::Vector3d>& ret
   for (const Ray& ray : rays) squares += std::pow(residualOf(ray, *plane), 2);
   const double freedom = kPriorReturns + static_cast<double>(rays.size()) - dimensions;
   moments.sigma = std::sqrt(squares / freedom);
+  moments.channel_effect = kind == LaserKind::cloud ? channelEffect(rays, *plane) : 1.0;
   decompose(moments, rays);
   for (const std::size_t i : spread(rays, static_cast<std::size_t>(dimensions + 1))) {
     moments.corner_rays.push_back(rays[i].direction);

@@ -10,8 +10,9 @@ namespace thermovox {
 
 /// What all ranges of one capture say of the plane they lie on, in four numbers.
 ///
-/// A plane n . p = d in the laser's frame is q = n / d: a ray u (unit) meets it at the range 1 / (q . u). With
-/// the rays' own best plane q0 and rho = 1 / (q0 . u) a range differs from another plane's, in sigmas, by
+/// A plane n . p = d in the laser's frame is q = n / d: a ray u (unit) meets it at the range 1 / (q . u).
+/// With the rays' own best plane q0 and rho = 1 / (q0 . u) a range differs from another plane's, in sigmas,
+/// by
 ///
 ///   (r + b - 1 / (q . u)) / sigma  ~  e + (rho^2 u . (q - q0) + b) / sigma,
 ///
@@ -25,6 +26,9 @@ struct PlaneMoments {
   int returns = 0;     ///< that are in it
   int outliers = 0;    ///< that are not: more than 3.5 sigmas off
   double sigma = 0.0;  ///< of one range, metres: as they scatter about the plane, and as the rig says
+  /// By how much the variances are larger than by `sigma` alone: rays of one channel of a multi-beam laser
+  /// err together. 1 where each errs by itself.
+  double channel_effect = 1.0;
   /// Some of the rays (unit) that are in it, as far from each other as they get, and the ranges of the plane
   /// there (metres).
   std::vector<Eigen::Vector3d> corner_rays;

@@ -9,21 +9,23 @@
 namespace thermovox {
 namespace {
 
-/// The readings about the one that most others are near to.
+constexpr double kMostPlate = 1.4;  // of the pattern: a plate that is not known
+
+/// The nearest readings that are near to each other, a tenth of all at least: the board stands in front.
 std::vector<ReturnSet> beamCandidates(const ReturnSet& returns) {
   constexpr double kNear = 0.05;  // metres
-  constexpr std::size_t kFewest = 3;
+  const std::size_t fewest = std::max<std::size_t>(3, returns.size() / 10);
   ReturnSet sorted = returns;
   std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
   std::size_t begin = 0, best_begin = 0, best_end = 0;
   for (std::size_t end = 1; end <= sorted.size(); ++end) {
     while (sorted[end - 1].x() - sorted[begin].x() > kNear) ++begin;
-    if (end - begin > best_end - best_begin) {
-      best_begin = begin;
-      best_end = end;
-    }
+    if (best_end > 0 && begin >= best_end) break;  // the next surface
+    if (end - begin < fewest || end - begin < best_end - best_begin) continue;
+    best_begin = begin;
+    best_end = end;
   }
-  if (best_end - best_begin < kFewest) return {};
+  if (best_end == 0) return {};
   return {{sorted.begin() + static_cast<std::ptrdiff_t>(best_begin),
            sorted.begin() + static_cast<std::ptrdiff_t>(best_end)}};
 }
@@ -49,7 +51,7 @@ std::vector<ReturnSet> boardCandidates(const ReturnSet& returns_laser, LaserKind
       candidates = boardsInScan(returns_laser, plateOf(board));
       break;
     case LaserKind::cloud:
-      candidates = boardsInCloud(returns_laser, plateOf(board));
+      candidates = boardsInCloud(returns_laser, {plateOf(board), board.width > 0.0 ? 1.0 : kMostPlate});
       break;
   }
   if (candidates.size() > most) candidates.resize(most);

@@ -6,43 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "calibration/chi_square.hpp"
-
 namespace thermovox {
 namespace {
 
 Eigen::MatrixXd informationOf(const Linearisation& linear) {
   const Eigen::SparseMatrix<double> information = linear.jacobian.transpose() * linear.jacobian;
   return information;
-}
-
-/// x^T M^+ x and the rank of a symmetric matrix without negative eigenvalues.
-GroupTest against(const Eigen::MatrixXd& M, const Eigen::VectorXd& x) {
-  constexpr double kNothing = 1e-6;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M);
-  GroupTest test;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (!(eigen.eigenvalues()[i] > kNothing)) continue;
-    test.chi_square += std::pow(eigen.eigenvectors().col(i).dot(x), 2) / eigen.eigenvalues()[i];
-    ++test.freedom;
-  }
-  return test;
-}
-
-/// The rows of a group that say anything: a laser of fewer dimensions leaves empty ones.
-struct SpeakingRows {
-  Eigen::MatrixXd jacobian;
-  Eigen::VectorXd residuals;
-};
-
-SpeakingRows speakingRows(const Linearisation& linear, const RowGroup& group) {
-  const Eigen::MatrixXd rows = linear.jacobian.middleRows(group.first, group.count);
-  std::vector<Eigen::Index> speaking;
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    if (rows.row(i).squaredNorm() > 0.0) speaking.push_back(i);
-  }
-  return {rows(speaking, Eigen::all),
-          Eigen::VectorXd(linear.residuals.segment(group.first, group.count)(speaking))};
 }
 
 /// All unknowns but the biases eliminated from information and gradient of the bundle.
@@ -80,22 +49,6 @@ JointCovariance jointCovariance(const Linearisation& linear) {
   const Eigen::MatrixXd vectors = scale.asDiagonal() * eigen.eigenvectors();
   joint.covariance = vectors * values.cwiseInverse().asDiagonal() * vectors.transpose();
   return joint;
-}
-
-double GroupTest::probability() const { return chiSquareTail(chi_square, freedom); }
-
-GroupTest testWithin(const Linearisation& linear, const RowGroup& group, const Eigen::MatrixXd& covariance) {
-  const SpeakingRows rows = speakingRows(linear, group);
-  const Eigen::Index n = rows.residuals.size();
-  return against(Eigen::MatrixXd::Identity(n, n) - rows.jacobian * covariance * rows.jacobian.transpose(),
-                 rows.residuals);
-}
-
-GroupTest testBeside(const Linearisation& linear, const RowGroup& group, const Eigen::MatrixXd& covariance) {
-  const SpeakingRows rows = speakingRows(linear, group);
-  const Eigen::Index n = rows.residuals.size();
-  return against(Eigen::MatrixXd::Identity(n, n) + rows.jacobian * covariance * rows.jacobian.transpose(),
-                 rows.residuals);
 }
 
 double rangeBiasSigma(const Linearisation& fitted, const std::vector<double>& biases, double model_sigma) {

@@ -10,25 +10,10 @@ namespace thermovox {
 /// The covariance of all unknowns by their information J^T J, and what of them the data do not determine.
 struct JointCovariance {
   Eigen::MatrixXd covariance;  ///< in the order of the layout; empty where the information is singular
-  double condition = 0.0;      ///< least over largest eigenvalue of the information, its columns scaled to one
+  double condition = 0.0;  ///< least over largest eigenvalue of the information, its columns scaled to one
 };
 
 [[nodiscard]] JointCovariance jointCovariance(const Linearisation& linear);
-
-/// How far rows are off when all else is known from the other rows: a chi-square and its degrees of freedom.
-struct GroupTest {
-  double chi_square = 0.0;
-  int freedom = 0;
-  /// The chance of a larger one by noise alone.
-  [[nodiscard]] double probability() const;
-};
-
-/// Of rows that are in the fit: r^T (I - J C J^T)^-1 r, the drop of the cost without them.
-[[nodiscard]] GroupTest testWithin(const Linearisation& linear, const RowGroup& group,
-                                   const Eigen::MatrixXd& covariance);
-/// Of rows that are not: r^T (I + J C J^T)^-1 r.
-[[nodiscard]] GroupTest testBeside(const Linearisation& linear, const RowGroup& group,
-                                   const Eigen::MatrixXd& covariance);
 
 /// What the sigmas of some rows have to be multiplied by to explain how far off they are: the square root of
 /// the sum of squares over what is left of their number, tr(I - J C J^T). 1 where too few are left.

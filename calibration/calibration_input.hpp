@@ -15,8 +15,8 @@ namespace thermovox {
 
 /// A camera before it is calibrated.
 struct CameraGuess {
-  Intrinsics intrinsics;     ///< its lens model and size are taken, its numbers are where to begin
-  Pose T_reference_camera;   ///< of the rig; the identity for the reference camera
+  Intrinsics intrinsics;    ///< its lens model and size are taken, its numbers are where to begin
+  Pose T_reference_camera;  ///< of the rig; the identity for the reference camera
   /// Whether its intrinsics are unknowns, or exact as they are.
   enum class Lens { estimate, keep };
   Lens lens = Lens::estimate;

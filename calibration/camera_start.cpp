@@ -81,7 +81,7 @@ struct FittedCamera {
   std::vector<std::optional<Pose>> T_camera_board;  ///< of each capture
 };
 
-std::optional<FittedCamera> fitCamera(const CalibrationInput& input, std::size_t camera, int threads) {
+std::optional<FittedCamera> fitCamera(const CalibrationInput& input, std::size_t camera) {
   std::optional<FittedCamera> best;
   double least = std::numeric_limits<double>::infinity();
   for (const Intrinsics& start : lensStarts(input, camera)) {
@@ -90,8 +90,7 @@ std::optional<FittedCamera> fitCamera(const CalibrationInput& input, std::size_t
     const std::size_t views = single->captures.size();
     const BundleModel model{.free_intrinsics = {freeIntrinsics(input.cameras[camera], views)},
                             .corner_factor = {1.0},
-                            .corner_loss = BundleModel::Loss::huber,
-                            .threads = threads};
+                            .corner_loss = BundleModel::Loss::huber};
     const BundleFit fit = solveBundle(single->data, single->estimate, model);
     const double cost = fit.cost / static_cast<double>(views);
     if (!(cost < least) && best) continue;
@@ -105,7 +104,9 @@ std::optional<FittedCamera> fitCamera(const CalibrationInput& input, std::size_t
   return best;
 }
 
-double turnBetween(const Pose& a, const Pose& b) { return a.rotation.angularDistance(b.rotation); }
+double turnBetween(const Pose& a, const Pose& b) {
+  return a.rotation.angularDistance(b.rotation);
+}
 
 /// How far two answers are from each other, in units of what still agrees.
 double apart(const Pose& a, const Pose& b) {
@@ -191,8 +192,8 @@ void align(CameraStart& start, const CalibrationInput& input, std::size_t camera
     std::optional<BoardView>& view = start.captures[i].views[camera];
     if (apart(nearest->T_camera_reference, T_camera_reference) > 1.0) {
       view.reset();
-      start.dropped.push_back({start.captures[i].name,
-                               "the board moved between the images of the two cameras"});
+      start.dropped.push_back(
+          {start.captures[i].name, "the board moved between the images of the two cameras"});
     } else {
       view = reordered(*view, symmetries[nearest->symmetry]);
     }
@@ -210,11 +211,11 @@ std::vector<CornerObservation> cornersOf(const BoardView& view, int camera) {
   return corners;
 }
 
-CameraStart startCameras(const CalibrationInput& input, int threads) {
+CameraStart startCameras(const CalibrationInput& input) {
   CameraStart start{.estimate = {}, .captures = input.captures, .dropped = {}};
   std::vector<std::optional<FittedCamera>> fitted;
   for (std::size_t camera = 0; camera < input.cameras.size(); ++camera) {
-    fitted.push_back(fitCamera(input, camera, threads));
+    fitted.push_back(fitCamera(input, camera));
     start.estimate.cameras.push_back(fitted.back() ? fitted.back()->intrinsics
                                                    : input.cameras[camera].intrinsics);
     start.estimate.T_camera_reference.push_back(input.cameras[camera].T_reference_camera.inverse());

@@ -23,9 +23,9 @@ struct CameraStart {
 
 /// Finds where the boards were and what the cameras are, one camera after the other, then how they stand to
 /// each other. Intrinsics are fitted from the input's and, where the lens has a plane's closed form (Zhang
-/// 2000), also from nothing; the better fit counts. Which side of a symmetric board a view begins with is what
-/// most captures agree on; where they cannot tell, what the input's poses say.
-/// Throws UnobservableError where no capture has a view of the reference camera.
-[[nodiscard]] CameraStart startCameras(const CalibrationInput& input, int threads);
+/// 2000), also from nothing; the better fit counts. Which side of a symmetric board a view begins with is
+/// what most captures agree on; where they cannot tell, what the input's poses say. Throws UnobservableError
+/// where no capture has a view of the reference camera.
+[[nodiscard]] CameraStart startCameras(const CalibrationInput& input);
 
 }  // namespace thermovox

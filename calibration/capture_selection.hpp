@@ -1,29 +1,37 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "calibration/rig_bundle.hpp"
+#include "calibration/board_plane.hpp"
+#include "projection/pose.hpp"
 
 namespace thermovox {
 
-/// Which captures the laser is calibrated from, and the bundle with these.
+/// The board of one capture as its images have it, and as the laser has it.
+struct CaptureSight {
+  Pose T_reference_board;
+  /// Of it by the images alone: R' = Exp(w) R, t' = t + v along the reference camera's axes.
+  Matrix6d covariance = Matrix6d::Zero();
+  std::optional<PlaneMoments> plane;  ///< none: the laser has no board in this capture
+};
+
+/// Which captures the laser is calibrated from.
 struct CaptureSelection {
-  BundleFit fit;
-  double range_bias_sigma = 0.0;  ///< metres: as the captures that count scatter
-  std::vector<bool> counts;       ///< of each capture of the data
+  Pose T_reference_laser;         ///< by these captures
+  double range_bias_sigma = 0.0;  ///< metres: what their ranges err by together
+  std::vector<bool> counts;       ///< of each capture
   /// Of each capture with a plane: how likely noise alone would put its plane as far off. 1 without a plane.
   std::vector<double> probability;
 };
 
 /// Parts captures whose laser saw another board than the cameras (it moved in between) from the others. The
 /// least fitting two fifths are left out, then the best fitting of those come back one at a time, as long as
-/// their planes are as the bundle without them expects (chi-square, at 2.5e-4); how much the ranges of a
-/// capture err together is estimated anew each time (a forward search: Atkinson and Riani 2000). `start` should
-/// explain most captures.
-[[nodiscard]] CaptureSelection selectCaptures(const BundleData& data, const RigEstimate& start,
-                                              BundleModel model);
-
-/// The data without the planes and edges of the captures that do not count.
-[[nodiscard]] BundleData onlyCounting(const BundleData& data, const std::vector<bool>& counts);
+/// their planes are as the others have it (an F test at 2.5e-4). How much the ranges of a capture err
+/// together is estimated anew each time, for the part that counts (a forward search: Atkinson and Riani 2000;
+/// what remains of a Gaussian whose tails are cut off: Croux and Rousseeuw 1992). Each plane is weighted by
+/// its own noise and by how well its images know the board. `start` should explain most captures.
+[[nodiscard]] CaptureSelection selectCaptures(const std::vector<CaptureSight>& sights, LaserKind kind,
+                                              const Pose& start);
 
 }  // namespace thermovox

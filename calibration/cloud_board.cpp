@@ -14,13 +14,13 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr std::size_t kSeeds = 600;      // spheres, all over the cloud
-constexpr int kTrials = 60;              // planes tried in a sphere
-constexpr double kThick = 0.03;          // metres either side of a plane: three sigmas of most lasers
-constexpr double kSize = 0.15;           // of a side: how far a rectangle may be off
-constexpr double kLeastFilled = 0.7;     // of the rectangle's area, by the points' hull
-constexpr std::size_t kFewest = 20;      // points
-constexpr double kSameMiddle = 0.3;      // of the plate's diagonal: one board twice
+constexpr std::size_t kSeeds = 300;   // spheres, all over the cloud
+constexpr int kTrials = 40;           // planes tried in a sphere
+constexpr double kThick = 0.03;       // metres either side of a plane: three sigmas of most lasers
+constexpr double kSize = 0.15;        // of a side: how far a rectangle may be off
+constexpr double kLeastFilled = 0.7;  // of the rectangle's area, by the points' hull
+constexpr std::size_t kFewest = 20;   // points
+constexpr double kSameMiddle = 0.3;   // of the plate's diagonal: one board twice
 
 Points within(const Points& points, const Eigen::Vector3d& middle, double radius) {
   Points near;
@@ -54,7 +54,7 @@ std::optional<FlatPiece> flattest(const Points& points, std::mt19937_64& random)
   if (points.size() < kFewest) return std::nullopt;
   std::size_t most = 0;
   Points best;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / 300);  // counted are at most 600
+  const std::size_t step = std::max<std::size_t>(1, points.size() / 150);  // counted are at most 300
   for (int trial = 0; trial < kTrials; ++trial) {
     const Eigen::Vector3d& a = points[random() % points.size()];
     const Eigen::Vector3d& b = points[random() % points.size()];
@@ -85,7 +85,7 @@ double widestGap(std::vector<double> values) {
 }
 
 /// How well the points fill a rectangle of the plate's size: 0 not at all, at most 1.
-double likeness(const FlatPiece& piece, const Eigen::Vector2d& plate) {
+double likeness(const FlatPiece& piece, const SoughtPlate& plate) {
   if (piece.points.size() < kFewest) return 0.0;
   const Eigen::Vector3d x = piece.normal.unitOrthogonal(), y = piece.normal.cross(x);
   std::vector<cv::Point2f> flat, hull;
@@ -106,13 +106,13 @@ double likeness(const FlatPiece& piece, const Eigen::Vector2d& plate) {
   std::array<std::pair<double, double>, 2> sides{
       {{box.size.width, widestGap(std::move(along))}, {box.size.height, widestGap(std::move(across))}}};
   std::sort(sides.begin(), sides.end());
-  const std::array<double, 2> wanted{plate.minCoeff(), plate.maxCoeff()};
+  const std::array<double, 2> wanted{plate.sides.minCoeff(), plate.sides.maxCoeff()};
   double worst = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto [side, gap] = sides[i];
     if (gap > 0.35 * wanted[i]) return 0.0;
     // The outermost lines of the laser are up to a gap within the edges.
-    const double off = std::max(side - wanted[i], wanted[i] - side - 1.5 * gap);
+    const double off = std::max(side - plate.most * wanted[i], wanted[i] - side - 1.5 * gap);
     worst = std::max(worst, off / (kSize * wanted[i]));
   }
   return std::max(0.0, 1.0 - worst);
@@ -134,22 +134,26 @@ void keepApart(std::vector<Candidate>& candidates, Candidate candidate, double a
 
 }  // namespace
 
-std::vector<Points> boardsInCloud(const Points& returns_laser, const Eigen::Vector2d& plate) {
-  const double radius = 0.5 * plate.norm() * (1.0 + kSize);
+std::vector<Points> boardsInCloud(const Points& returns_laser, const SoughtPlate& plate) {
+  const double radius = 0.5 * plate.most * plate.sides.norm() * (1.0 + kSize);
   std::mt19937_64 random(1);
   std::vector<Candidate> candidates;
   const std::size_t step = std::max<std::size_t>(1, returns_laser.size() / kSeeds);
   for (std::size_t seed = 0; seed < returns_laser.size(); seed += step) {
     Eigen::Vector3d middle = returns_laser[seed];
+    const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+      return (candidate.piece.middle - middle).norm() < kSameMiddle * plate.sides.norm();
+    });
+    if (known) continue;
     std::optional<FlatPiece> piece;
-    for (int round = 0; round < 4; ++round) {  // the sphere moves to the middle of what it found
+    for (int round = 0; round < 3; ++round) {  // the sphere moves to the middle of what it found
       piece = flattest(within(returns_laser, middle, radius), random);
       if (!piece || (piece->middle - middle).norm() < 0.02 * radius) break;
       middle = piece->middle;
     }
     if (!piece) continue;
     const double score = likeness(*piece, plate);
-    if (score > 0.0) keepApart(candidates, {*std::move(piece), score}, kSameMiddle * plate.norm());
+    if (score > 0.0) keepApart(candidates, {*std::move(piece), score}, kSameMiddle * plate.sides.norm());
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });

@@ -10,22 +10,22 @@ namespace thermovox {
 
 /// A ray that passes an edge of the board: between a return from the board and its neighbour from beyond.
 struct EdgeCrossing {
-  Eigen::Vector3d ray;       ///< unit vector, laser frame
-  int axis = 0;              ///< of the board's frame across the edge: 0 is x, 1 is y
-  double place = 0.0;        ///< of the edge on that axis, signed: half the plate's size, metres
-  double sigma = 0.0;        ///< of the crossing on that axis, metres
+  Eigen::Vector3d ray;  ///< unit vector, laser frame
+  int axis = 0;         ///< of the board's frame across the edge: 0 is x, 1 is y
+  double place = 0.0;   ///< of the edge on that axis, signed: half the plate's size, metres
+  double sigma = 0.0;   ///< of the crossing on that axis, metres
 };
 
-/// All crossings of one side of the board in one capture. A scanner's lines that run along the edge pass it all
-/// at one distance: `offset_sigma` (metres) is what their errors have in common.
+/// All crossings of one side of the board in one capture. A scanner's lines that run along the edge pass it
+/// all at one distance: `offset_sigma` (metres) is what their errors have in common.
 struct EdgeSide {
   std::vector<EdgeCrossing> crossings;
   double offset_sigma = 0.0;
 };
 
 /// Where the rays meet the board's plane, against where the plate ends, in sigmas. The range of no return is
-/// in it: beside an edge they are of mixtures. Whitened by the covariance diag(sigma^2) + offset_sigma^2 1 1^T,
-/// times factor^2: of the residuals r in their own sigmas the part along a = 1 / sigma is shrunk.
+/// in it: beside an edge they are of mixtures. Whitened by the covariance diag(sigma^2) + offset_sigma^2 1
+/// 1^T, times factor^2: of the residuals r in their own sigmas the part along a = 1 / sigma is shrunk.
 /// Blocks: T_reference_board [7], T_reference_laser [7], edge bias [1]: what the width of the beam adds to
 /// every edge, metres. Residual: one a crossing.
 struct EdgeResidual {
@@ -34,7 +34,8 @@ struct EdgeResidual {
 
   template <typename T>
   bool operator()(const T* const* blocks, T* residual) const {
-    Eigen::Map<Eigen::Matrix<T, Eigen::Dynamic, 1>> r(residual, static_cast<Eigen::Index>(side.crossings.size()));
+    Eigen::Map<Eigen::Matrix<T, Eigen::Dynamic, 1>> r(residual,
+                                                      static_cast<Eigen::Index>(side.crossings.size()));
     Eigen::VectorXd along(r.size());
     for (std::size_t i = 0; i < side.crossings.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);

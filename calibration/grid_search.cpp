@@ -59,6 +59,26 @@ Pixels reduced(Pixels pixels, int factor) {
   return pixels;
 }
 
+int reduction(const cv::Mat& image) {
+  constexpr int kSearchWidth = 960;  // px
+  return std::max(1, image.cols / kSearchWidth);
+}
+
+cv::Mat shrunk(const cv::Mat& image, int factor) {
+  cv::Mat small;
+  const cv::Mat whole =
+      image(cv::Rect(0, 0, image.cols - image.cols % factor, image.rows - image.rows % factor));
+  cv::resize(whole, small, {whole.cols / factor, whole.rows / factor}, 0.0, 0.0, cv::INTER_AREA);
+  return small;
+}
+
+Pixels unshrunk(Pixels pixels, int factor) {
+  for (cv::Point2f& pixel : pixels) {
+    pixel = (pixel + cv::Point2f(0.5F, 0.5F)) * static_cast<float>(factor) - cv::Point2f(0.5F, 0.5F);
+  }
+  return pixels;
+}
+
 std::vector<double> offPlane(const Pixels& pixels, const Pixels& board) {
   const cv::Mat homography = cv::findHomography(board, pixels);
   if (homography.empty()) return {};

@@ -31,6 +31,13 @@ struct SearchVersions {
 /// The pixels of an enlarged image in the image itself. A pixel's centre is whole, before and after.
 [[nodiscard]] Pixels reduced(Pixels pixels, int factor);
 
+/// How many times a large image is reduced for the search, by the mean of so many pixels: there is nothing to
+/// be found in it that a smaller one does not show, in a quarter of the time.
+[[nodiscard]] int reduction(const cv::Mat& image);
+[[nodiscard]] cv::Mat shrunk(const cv::Mat& image, int factor);
+/// The pixels of a reduced image in the image itself.
+[[nodiscard]] Pixels unshrunk(Pixels pixels, int factor);
+
 /// Each pixel's distance from where the homography that fits best has its point of the board, px; empty where
 /// there is none.
 [[nodiscard]] std::vector<double> offPlane(const Pixels& pixels, const Pixels& board);

@@ -19,10 +19,10 @@
 namespace thermovox {
 namespace {
 
-constexpr double kOffPlane = 0.03;   // metres, along the ray
-constexpr double kOffPlate = 0.05;   // metres, beyond an edge
-constexpr double kMostOff = 3.0;     // of both, where a capture is not explained
-constexpr int kSubsets = 300;        // of captures, for linear solutions
+constexpr double kOffPlane = 0.03;  // metres, along the ray
+constexpr double kOffPlate = 0.05;  // metres, beyond an edge
+constexpr double kMostOff = 3.0;    // of both, where a capture is not explained
+constexpr int kSubsets = 300;       // of captures, for linear solutions
 constexpr double kOther = 5.0 * std::numbers::pi / 180.0;
 
 /// A candidate against a board: ranges off its plane, and hits off its plate, each in units of what a start
@@ -81,7 +81,8 @@ class Start {
   /// The best pose near this one.
   [[nodiscard]] LaserStart refined(const Pose& T_reference_laser) const;
   /// Linear solution of some captures with a candidate each.
-  [[nodiscard]] std::optional<Pose> linear(const std::vector<std::pair<std::size_t, std::size_t>>& some) const;
+  [[nodiscard]] std::optional<Pose> linear(
+      const std::vector<std::pair<std::size_t, std::size_t>>& some) const;
 
  private:
   [[nodiscard]] double offBy(const LaserSight& sight, const PlaneMoments& candidate,
@@ -250,13 +251,6 @@ std::optional<LaserStart> bestLinear(const Start& start, const std::vector<Laser
   return best;
 }
 
-/// A beam's answer with the roll of the guess: the smallest rotation from it that points the same way.
-Pose withRollOf(const Pose& guess, const Pose& pose) {
-  const Eigen::Vector3d from = guess.rotation * Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d to = pose.rotation * Eigen::Vector3d::UnitX();
-  return {(Eigen::Quaterniond::FromTwoVectors(from, to) * guess.rotation).normalized(), pose.translation};
-}
-
 /// How differently two poses point: a beam's roll does not count.
 double turnApart(LaserKind kind, const Pose& a, const Pose& b) {
   if (kind != LaserKind::beam) return a.rotation.angularDistance(b.rotation);
@@ -265,6 +259,12 @@ double turnApart(LaserKind kind, const Pose& a, const Pose& b) {
 }
 
 }  // namespace
+
+Pose withRollOf(const Pose& guess, const Pose& pose) {
+  const Eigen::Vector3d from = guess.rotation * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d to = pose.rotation * Eigen::Vector3d::UnitX();
+  return {(Eigen::Quaterniond::FromTwoVectors(from, to) * guess.rotation).normalized(), pose.translation};
+}
 
 std::optional<LaserStart> startLaser(const std::vector<LaserSight>& sights, LaserKind kind, const Pose& guess,
                                      const Eigen::Vector2d& plate) {

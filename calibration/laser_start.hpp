@@ -32,4 +32,7 @@ struct LaserStart {
 [[nodiscard]] std::optional<LaserStart> startLaser(const std::vector<LaserSight>& sights, LaserKind kind,
                                                    const Pose& guess, const Eigen::Vector2d& plate);
 
+/// A beam's pose with the roll of the guess: the smallest rotation from the guess that points the same way.
+[[nodiscard]] Pose withRollOf(const Pose& guess, const Pose& pose);
+
 }  // namespace thermovox

@@ -17,6 +17,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTolerableTurn = 0.2 * kDegree;
 constexpr double kTolerableShift = 0.005;  // metres
+constexpr double kJackknifeWins = 2.0;     // times the covariance's sigmas: what no model has errs
 
 /// From the tangent of the bundle to (w, v) along the reference camera's axes.
 Eigen::MatrixXd publishedFromTangent(const RigEstimate& estimate, int laser_size) {
@@ -196,6 +197,7 @@ LaserVerdict laserVerdict(const Linearisation& linear, const Eigen::MatrixXd& co
   }
   const Eigen::VectorXd jackknife = jackknifeSigmas(linear, input.captures);
   verdict.jackknife_ratio = (jackknife.array() / laser.diagonal().array().sqrt()).maxCoeff();
+  if (verdict.jackknife_ratio > kJackknifeWins) verdict.covariance *= std::pow(verdict.jackknife_ratio, 2);
   return verdict;
 }
 

@@ -11,8 +11,8 @@
 
 namespace thermovox {
 
-/// How far a point that the laser measures may come to lie beside its pixel in the reference camera, one sigma:
-/// by the joint covariance of laser and lens, whose errors partly cancel.
+/// How far a point that the laser measures may come to lie beside its pixel in the reference camera, one
+/// sigma: by the joint covariance of laser and lens, whose errors partly cancel.
 struct PixelTransfer {
   double distance = 0.0;  ///< metres
   double sigma_px = 0.0;
@@ -30,8 +30,10 @@ struct LaserVerdict {
   double condition = 0.0;  ///< largest over least eigenvalue of the information in units of the tolerances
   Vector6d weakest = Vector6d::Zero();  ///< one sigma along what is known least, as in `covariance`
   std::string weakest_direction;        ///< the same in words, and which capture would help
-  double weakest_share = 0.0;     ///< its sigma over what is tolerable (0.2 degrees, 5 mm)
-  double jackknife_ratio = 0.0;   ///< of sigmas, leave-one-capture-out over covariance, the largest of six
+  double weakest_share = 0.0;           ///< its sigma over what is tolerable (0.2 degrees, 5 mm)
+  /// Of sigmas, leave-one-capture-out over the bundle's, the largest of six. From 2 on `covariance` is the
+  /// bundle's times its square.
+  double jackknife_ratio = 0.0;
   std::vector<std::string> warnings;
 };
 

@@ -1,15 +1,15 @@
 #include "calibration/noise_model.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "calibration/bundle_statistics.hpp"
-#include "calibration/chi_square.hpp"
 
 namespace thermovox {
 namespace {
 
-constexpr double kOutlier = 3.5;  // robust sigmas
+constexpr double kOutlier = 3.5;         // robust sigmas
 constexpr double kLeastEdgeSigma = 0.3;  // of what crossings say: rays in a row may all pass well
 constexpr int kRounds = 3;
 
@@ -31,6 +31,39 @@ std::vector<double> residualsOf(const Linearisation& linear, RowGroup::Kind kind
   return residuals;
 }
 
+/// What the sides of the boards err by together, so that their offsets are as far off as expected: the root
+/// of sum(m^2 / (v + sigma^2)) = n, with the offset m of a side and its variance v from its crossings alone.
+double edgeOffsetSigma(const BundleData& data, const Linearisation& linear, const BundleModel& model) {
+  constexpr double kMost = 0.05;                 // metres
+  std::vector<std::pair<double, double>> sides;  // m^2, v
+  for (const RowGroup& group : linear.groups) {
+    if (group.kind != RowGroup::Kind::edges) continue;
+    int row = group.first;
+    for (const EdgeSide& side : data.captures[static_cast<std::size_t>(group.capture)].edges) {
+      double weight = 0.0, along = 0.0;  // of r in the sigmas of the crossings, whitening undone
+      for (const EdgeCrossing& crossing : side.crossings) {
+        weight += 1.0 / (crossing.sigma * crossing.sigma);
+        along += linear.residuals[row++] * model.edge_factor / crossing.sigma;
+      }
+      const double offset = std::hypot(side.offset_sigma, model.edge_offset_sigma / model.edge_factor);
+      const double mean = along / weight * std::hypot(1.0, offset * std::sqrt(weight));
+      const double own = 1.0 / weight + side.offset_sigma * side.offset_sigma;
+      sides.emplace_back(mean * mean, model.edge_factor * model.edge_factor * own);
+    }
+  }
+  constexpr double kUnknowns = 7.0;  // that the edges have a say in
+  const double expected = static_cast<double>(sides.size()) - kUnknowns;
+  const auto excess = [&](double sigma) {
+    double sum = 0.0;
+    for (const auto& [square, variance] : sides) sum += square / (variance + sigma * sigma);
+    return sum - expected;
+  };
+  if (expected < 4.0 || excess(0.0) <= 2.0 * std::sqrt(2.0 * expected)) return 0.0;  // chance explains it
+  double low = 0.0, high = kMost;
+  while (high - low > 1e-6) (excess(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+  return high;
+}
+
 /// Planes that do not fit although each fits its own returns: their factor, where chance does not explain it.
 double planeFactor(const Linearisation& linear, const Eigen::MatrixXd& covariance, double now) {
   constexpr double kUnlikely = 0.05;
@@ -40,20 +73,23 @@ double planeFactor(const Linearisation& linear, const Eigen::MatrixXd& covarianc
     const Eigen::MatrixXd rows = linear.jacobian.middleRows(group.first, group.count);
     squares += linear.residuals.segment(group.first, group.count).squaredNorm();
     for (int row = 0; row < group.count; ++row) {
-      if (rows.row(row).squaredNorm() > 0.0) freedom += 1.0 - rows.row(row) * covariance * rows.row(row).transpose();
+      if (rows.row(row).squaredNorm() > 0.0)
+        freedom += 1.0 - rows.row(row) * covariance * rows.row(row).transpose();
     }
   }
   if (freedom < 4.0) return now;
   const double factor = now * std::sqrt(squares / freedom);
-  const bool chance = chiSquareTail(factor * factor * freedom, static_cast<int>(std::lround(freedom))) > kUnlikely;
+  const boost::math::chi_squared distribution(freedom);
+  const bool chance =
+      boost::math::cdf(boost::math::complement(distribution, factor * factor * freedom)) > kUnlikely;
   return chance ? 1.0 : std::max(1.0, factor);
 }
 
 }  // namespace
 
-int dropCornerOutliers(BundleData& data, const RigEstimate& estimate, const BundleModel& model) {
+std::vector<int> dropCornerOutliers(BundleData& data, const RigEstimate& estimate, const BundleModel& model) {
   const Linearisation linear = linearise(data, estimate, model);
-  int dropped = 0;
+  std::vector<int> dropped(estimate.cameras.size(), 0);
   std::vector<double> gates;
   for (int camera = 0; camera < static_cast<int>(estimate.cameras.size()); ++camera) {
     const std::vector<double> residuals = residualsOf(linear, RowGroup::Kind::corners, camera);
@@ -69,7 +105,7 @@ int dropCornerOutliers(BundleData& data, const RigEstimate& estimate, const Bund
       row += 2;
       return linear.residuals.segment<2>(row - 2).cwiseAbs().maxCoeff() > gate;
     });
-    dropped += static_cast<int>(corners.end() - kept);
+    dropped[static_cast<std::size_t>(group.camera)] += static_cast<int>(corners.end() - kept);
     corners.erase(kept, corners.end());
   }
   return dropped;
@@ -111,6 +147,7 @@ BundleFit fitWithNoise(const BundleData& data, const RigEstimate& start, BundleM
     model.edge_factor *= varianceFactor(
         linear, covariance, [](const RowGroup& group) { return group.kind == RowGroup::Kind::edges; });
     if (linear.layout.laser >= 0) {
+      model.edge_offset_sigma = edgeOffsetSigma(data, linear, model);
       model.range_bias_sigma = rangeBiasSigma(linear, fit.estimate.range_bias, model.range_bias_sigma);
       model.plane_factor = planeFactor(linear, covariance, model.plane_factor);
     }

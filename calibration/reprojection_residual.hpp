@@ -19,9 +19,9 @@ Vec3<T> transformBy(const T* T_a_b, const Vec3<T>& p_b) {
 /// T_camera_reference [7]. Residual: 2.
 struct ReprojectionResidual {
   LensModel model;
-  Eigen::Vector3d p_board;   ///< metres
-  Eigen::Vector2d pixel;     ///< observed
-  Eigen::Matrix2d whitening; ///< L with L^T L the inverse of the pixel's covariance, 1 / px
+  Eigen::Vector3d p_board;    ///< metres
+  Eigen::Vector2d pixel;      ///< observed
+  Eigen::Matrix2d whitening;  ///< L with L^T L the inverse of the pixel's covariance, 1 / px
 
   template <typename T>
   bool operator()(const T* T_reference_board, const T* intrinsics, T* residual) const {

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "calibration/plane_residual.hpp"
@@ -19,7 +20,7 @@
 namespace thermovox {
 namespace {
 
-constexpr double kHuber = 2.0;       // sigmas
+constexpr double kHuber = 2.0;  // sigmas
 constexpr int kMostIterations = 100;
 
 using PoseNumbers = std::array<double, 7>;
@@ -60,8 +61,13 @@ struct PlaneResidualWithCommonBias {
 class Bundle {
  public:
   Bundle(const BundleData& data, const RigEstimate& start, const BundleModel& model)
-      : data_(data), model_(model), start_(start), laser_(numbersOf(start.T_reference_laser)),
-        range_bias_(start.range_bias), common_bias_(start.common_range_bias), edge_bias_(start.edge_bias) {
+      : data_(data),
+        model_(model),
+        start_(start),
+        laser_(numbersOf(start.T_reference_laser)),
+        range_bias_(start.range_bias),
+        common_bias_(start.common_range_bias),
+        edge_bias_(start.edge_bias) {
     for (const Intrinsics& camera : start.cameras) intrinsics_.push_back(camera.parameters);
     for (const Pose& pose : start.T_camera_reference) camera_poses_.push_back(numbersOf(pose));
     for (const Pose& pose : start.T_reference_board) boards_.push_back(numbersOf(pose));
@@ -80,6 +86,7 @@ class Bundle {
   void addCorners(std::size_t capture, int camera);
   void addPlane(std::size_t capture);
   void addEdges(std::size_t capture);
+  [[nodiscard]] EdgeSide widened(EdgeSide side) const;
   void addSharedPriors();
   void setManifolds();
   void setLayout();
@@ -176,19 +183,23 @@ void Bundle::addPlane(std::size_t capture) {
   plane.moments.offset /= model_.plane_factor;
   double* bias = &range_bias_[capture];
   if (model_.common_range_bias_sigma > 0.0) {
-    add<PlaneResidualWithCommonBias, 4, 7, 7, 1, 1>(PlaneResidualWithCommonBias{plane},
-                                                    boards_[capture].data(), laser_.data(), bias,
-                                                    &common_bias_);
+    add<PlaneResidualWithCommonBias, 4, 7, 7, 1, 1>(
+        PlaneResidualWithCommonBias{plane}, boards_[capture].data(), laser_.data(), bias, &common_bias_);
   } else {
     add<PlaneResidual, 4, 7, 7, 1>(plane, boards_[capture].data(), laser_.data(), bias);
   }
   add<PriorResidual, 1, 1>(PriorResidual{model_.range_bias_sigma}, bias);
 }
 
+EdgeSide Bundle::widened(EdgeSide side) const {
+  side.offset_sigma = std::hypot(side.offset_sigma, model_.edge_offset_sigma / model_.edge_factor);
+  return side;
+}
+
 void Bundle::addEdges(std::size_t capture) {
   for (const EdgeSide& side : data_.captures[capture].edges) {
     using Cost = ceres::DynamicAutoDiffCostFunction<EdgeResidual, 15>;
-    auto cost = std::make_unique<Cost>(new EdgeResidual{side, model_.edge_factor});
+    auto cost = std::make_unique<Cost>(new EdgeResidual{widened(side), model_.edge_factor});
     for (const int size : {7, 7, 1}) cost->AddParameterBlock(size);
     cost->SetNumResiduals(static_cast<int>(side.crossings.size()));
     rows_ += cost->num_residuals();
@@ -278,7 +289,7 @@ BundleFit Bundle::solve() {
   options.max_num_iterations = kMostIterations;
   options.function_tolerance = 1e-10;
   options.parameter_tolerance = 1e-10;
-  options.num_threads = model_.threads;
+  options.num_threads = 1;  // the same sums in the same order on every machine
   options.logging_type = ceres::SILENT;
   options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   std::vector<double*> all;
@@ -290,7 +301,8 @@ BundleFit Bundle::solve() {
   }
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem_, &summary);
-  return {estimate(), summary.final_cost, summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE};
+  return {estimate(), summary.final_cost,
+          summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE};
 }
 
 Linearisation Bundle::linearise() {
@@ -298,12 +310,12 @@ Linearisation Bundle::linearise() {
   options.residual_blocks = blocks_;
   options.parameter_blocks = parameters_;
   options.apply_loss_function = false;
-  options.num_threads = model_.threads;
   Linearisation result;
   std::vector<double> residuals;
   ceres::CRSMatrix crs;
   problem_.Evaluate(options, nullptr, &residuals, nullptr, &crs);
-  result.residuals = Eigen::Map<const Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+  result.residuals =
+      Eigen::Map<const Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
   result.jacobian = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
       crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
       crs.cols.data(), crs.values.data());

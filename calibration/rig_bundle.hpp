@@ -47,15 +47,15 @@ struct BundleData {
 /// Which unknowns are free, and how far measurements err besides what they say themselves.
 struct BundleModel {
   std::vector<std::vector<int>> free_intrinsics;  ///< of each camera: places in Intrinsics::parameters
-  std::vector<double> corner_factor;  ///< of each camera: what its corners' sigmas are to be multiplied by
-  double edge_factor = 1.0;           ///< likewise of edges
-  double plane_factor = 1.0;          ///< likewise of ranges
-  double range_bias_sigma = 0.005;    ///< of one capture, metres
+  std::vector<double> corner_factor;     ///< of each camera: what its corners' sigmas are to be multiplied by
+  double edge_factor = 1.0;              ///< likewise of edges
+  double plane_factor = 1.0;             ///< likewise of ranges
+  double edge_offset_sigma = 0.0;        ///< what all crossings of one side err by together, metres
+  double range_bias_sigma = 0.005;       ///< of one capture, metres
   double common_range_bias_sigma = 0.0;  ///< of all ranges, metres; 0: there is none
-  double edge_bias_sigma = 0.005;        ///< metres
+  double edge_bias_sigma = 0.010;        ///< metres
   enum class Loss { none, huber };
   Loss corner_loss = Loss::none;  ///< Huber's at two sigmas
-  int threads = 1;
 };
 
 struct BundleFit {
@@ -64,20 +64,21 @@ struct BundleFit {
   bool converged = false;
 };
 
-/// The estimate of least squares from `start`: corners in pixels, planes and edges in the laser, and the priors
-/// of the biases, all in sigmas (Ceres, Levenberg and Marquardt). Every board of `start` has to lie before the
-/// cameras that see it.
-[[nodiscard]] BundleFit solveBundle(const BundleData& data, const RigEstimate& start, const BundleModel& model);
+/// The estimate of least squares from `start`: corners in pixels, planes and edges in the laser, and the
+/// priors of the biases, all in sigmas (Ceres, Levenberg and Marquardt). Every board of `start` has to lie
+/// before the cameras that see it.
+[[nodiscard]] BundleFit solveBundle(const BundleData& data, const RigEstimate& start,
+                                    const BundleModel& model);
 
-/// Where the unknowns stand in the tangent vector. Poses are (rotation, translation); see pose_manifold.hpp for
-/// what their rotations are about.
+/// Where the unknowns stand in the tangent vector. Poses are (rotation, translation); see pose_manifold.hpp
+/// for what their rotations are about.
 struct TangentLayout {
-  int laser = 0, laser_size = 0;                       ///< 6, a beam's 5, or 0 where no laser is in it
-  std::vector<int> intrinsics;                         ///< first of each camera
-  std::vector<int> camera_pose;                        ///< of each camera; -1 of the reference
-  int common_bias = -1, edge_bias = -1;                ///< -1 where there is none
-  std::vector<int> range_bias;                         ///< of each capture; -1 where there is none
-  std::vector<int> board;                              ///< of each capture; -1 where nobody sees it
+  int laser = 0, laser_size = 0;         ///< 6, a beam's 5, or 0 where no laser is in it
+  std::vector<int> intrinsics;           ///< first of each camera
+  std::vector<int> camera_pose;          ///< of each camera; -1 of the reference
+  int common_bias = -1, edge_bias = -1;  ///< -1 where there is none
+  std::vector<int> range_bias;           ///< of each capture; -1 where there is none
+  std::vector<int> board;                ///< of each capture; -1 where nobody sees it
   int size = 0;
 };
 

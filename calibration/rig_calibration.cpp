@@ -20,10 +20,16 @@
 namespace thermovox {
 namespace {
 
-constexpr double kInset = 0.01;        // metres from the plate's edge: mixed returns
-constexpr double kSlack = 0.03;        // metres off the plane, and five sigmas of the laser
-constexpr double kWellExplained = 0.3; // mean cost of a start, 0 to 1, that needs no wider search
-constexpr int kLaserRounds = 3;        // of extraction and bundle
+constexpr double kInset = 0.01;         // metres from the plate's edge: mixed returns
+constexpr double kSlack = 0.03;         // metres off the plane, and five sigmas of the laser
+constexpr double kWellExplained = 0.3;  // mean cost of a start, 0 to 1, that needs no wider search
+constexpr int kLaserRounds = 3;         // of extraction and bundle
+
+/// Where a ray of the laser meets the board of a capture, metres.
+double rangeOf(const RigEstimate& estimate, std::size_t capture, const Eigen::Vector3d& ray_laser) {
+  const Pose T_board_laser = estimate.T_reference_board[capture].inverse() * estimate.T_reference_laser;
+  return -T_board_laser.translation.z() / (T_board_laser.rotation * ray_laser).z();
+}
 
 class Calibrator {
  public:
@@ -42,8 +48,10 @@ class Calibrator {
   [[nodiscard]] std::optional<LaserStart> findLaser();
   [[nodiscard]] std::vector<LaserSight> sights(bool near_guess) const;
   void takePlanes(const RigEstimate& estimate, bool with_edges);
-  void dropCaptures(const CaptureSelection& selection);
+  [[nodiscard]] std::vector<CaptureSight> captureSights() const;
+  void dropCaptures(const CaptureSelection& selection, const RigEstimate& estimate);
   void refuseLaser(const std::string& reason);
+  void measureResiduals();
   void judge();
   void judgeCameras(const Linearisation& linear, const Eigen::MatrixXd& covariance);
   void judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& covariance);
@@ -55,11 +63,12 @@ class Calibrator {
   BundleData data_;
   std::vector<std::optional<PlaneMoments>> planes_;  ///< of each capture, found without its neighbours
   std::vector<bool> counts_;                         ///< of each capture, for the laser
+  std::vector<Matrix6d> board_covariances_;          ///< of each capture's board, by the images alone
 };
 
 void Calibrator::startFromCameras() {
   tell("cameras", 0.0);
-  CameraStart start = startCameras(input_, options_.threads);
+  CameraStart start = startCameras(input_);
   result_.estimate = std::move(start.estimate);
   result_.captures = std::move(start.captures);
   result_.dropped = std::move(start.dropped);
@@ -68,7 +77,6 @@ void Calibrator::startFromCameras() {
     data_.laser = input_.laser->kind;
     model_.common_range_bias_sigma = input_.laser->range_bias_sigma;
   }
-  model_.threads = options_.threads;
   std::vector<std::size_t> views(input_.cameras.size(), 0);
   for (const BoardCapture& capture : result_.captures) {
     CaptureObservations seen;
@@ -92,10 +100,17 @@ void Calibrator::fitCameras() {
   tell("cameras", 0.5);
   model_.corner_loss = BundleModel::Loss::huber;
   BundleFit fit = solveBundle(data_, result_.estimate, model_);
-  dropCornerOutliers(data_, fit.estimate, model_);
+  const std::vector<int> outliers = dropCornerOutliers(data_, fit.estimate, model_);
+  for (std::size_t i = 0; i < outliers.size(); ++i) result_.cameras[i].corner_outliers = outliers[i];
   model_.corner_loss = BundleModel::Loss::none;
   fit = fitWithNoise(data_, fit.estimate, model_);
   result_.estimate = fit.estimate;
+  const Linearisation linear = linearise(data_, fit.estimate, model_);
+  const Eigen::MatrixXd covariance = jointCovariance(linear).covariance;
+  for (const int place : linear.layout.board) {
+    const bool known = place >= 0 && covariance.size() > 0;
+    board_covariances_.push_back(known ? Matrix6d(covariance.block<6, 6>(place, place)) : Matrix6d::Zero());
+  }
 }
 
 /// What may be the board in each capture's returns; near where the guess has it, or anywhere.
@@ -145,8 +160,8 @@ std::optional<LaserStart> Calibrator::findLaser() {
   return best;
 }
 
-/// The returns that are on the plates as the estimate has them, of the captures that count; of the others what
-/// was found without it.
+/// The returns that are on the plates as the estimate has them, of the captures that count; of the others
+/// what was found without it.
 void Calibrator::takePlanes(const RigEstimate& estimate, bool with_edges) {
   const LaserGuess& laser = *input_.laser;
   for (std::size_t i = 0; i < data_.captures.size(); ++i) {
@@ -175,28 +190,41 @@ void Calibrator::calibrateLaser() {
   counts_.assign(planes_.size(), true);
   RigEstimate estimate = result_.estimate;
   estimate.T_reference_laser = start->T_reference_laser;
+  if (data_.laser == LaserKind::beam)
+    estimate.T_reference_laser = withRollOf(input_.laser->T_reference_laser, start->T_reference_laser);
   for (int round = 0; round < kLaserRounds; ++round) {
     tell("laser", static_cast<double>(round) / kLaserRounds);
     takePlanes(estimate, round > 0);
     if (const auto reason = tooFewCaptures(data_)) return refuseLaser(*reason);
-    BundleData planes_only = data_;
-    for (CaptureObservations& capture : planes_only.captures) {
-      if (round == 0) capture.edges.clear();
-    }
-    const CaptureSelection selection = selectCaptures(planes_only, estimate, model_);
+    const CaptureSelection selection =
+        selectCaptures(captureSights(), data_.laser, estimate.T_reference_laser);
     counts_ = selection.counts;
     model_.range_bias_sigma = selection.range_bias_sigma;
-    if (round + 1 == kLaserRounds) dropCaptures(selection);
-    estimate = selection.fit.estimate;
+    estimate.T_reference_laser = selection.T_reference_laser;
+    if (round + 1 == kLaserRounds) dropCaptures(selection, estimate);
   }
-  data_ = onlyCounting(data_, counts_);
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    if (counts_[i]) continue;
+    data_.captures[i].plane.reset();
+    data_.captures[i].edges.clear();
+  }
   tell("bundle", 0.0);
   BundleFit fit = fitWithNoise(data_, estimate, model_);
   if (dropEdgeOutliers(data_, fit.estimate, model_) > 0) fit = fitWithNoise(data_, fit.estimate, model_);
   result_.estimate = fit.estimate;
+  if (data_.laser == LaserKind::beam)
+    result_.estimate.T_reference_laser =
+        withRollOf(input_.laser->T_reference_laser, result_.estimate.T_reference_laser);
 }
 
-void Calibrator::dropCaptures(const CaptureSelection& selection) {
+std::vector<CaptureSight> Calibrator::captureSights() const {
+  std::vector<CaptureSight> sights;
+  for (std::size_t i = 0; i < data_.captures.size(); ++i)
+    sights.push_back({result_.estimate.T_reference_board[i], board_covariances_[i], data_.captures[i].plane});
+  return sights;
+}
+
+void Calibrator::dropCaptures(const CaptureSelection& selection, const RigEstimate& estimate) {
   for (std::size_t i = 0; i < result_.captures.size(); ++i) {
     const BoardCapture& capture = result_.captures[i];
     if (capture.returns_laser.empty()) continue;
@@ -206,7 +234,7 @@ void Calibrator::dropCaptures(const CaptureSelection& selection) {
       result_.dropped.push_back({capture.name, "its returns have no board where the images have it"});
     } else if (!selection.counts[i]) {
       result_.dropped.push_back(
-          {capture.name, movedWords(*planes_[i], selection.fit.estimate, i, selection.probability[i])});
+          {capture.name, movedWords(*planes_[i], estimate, i, selection.probability[i])});
     } else {
       result_.used.push_back(capture.name);
     }
@@ -252,12 +280,44 @@ void Calibrator::judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& 
   describe(*result_.laser, data_, result_.estimate);
 }
 
+/// What is left of the corners and the returns beside the estimate.
+void Calibrator::measureResiduals() {
+  const std::vector<Eigen::Vector3d>& points = data_.points;
+  std::vector<double> squares(result_.cameras.size(), 0.0);
+  double returns = 0.0, off = 0.0;
+  for (std::size_t i = 0; i < data_.captures.size(); ++i) {
+    const Pose& board = result_.estimate.T_reference_board[i];
+    for (const CornerObservation& corner : data_.captures[i].corners) {
+      const auto camera = static_cast<std::size_t>(corner.camera);
+      const Eigen::Vector3d p = result_.estimate.T_camera_reference[camera] *
+                                (board * points[static_cast<std::size_t>(corner.point)]);
+      const Intrinsics& lens = result_.estimate.cameras[camera];
+      squares[camera] +=
+          (pixelFromCamera<double>(lens.model, lens.parameters.data(), p) - corner.pixel).squaredNorm();
+      ++result_.cameras[camera].corners;
+    }
+    if (!data_.captures[i].plane) continue;
+    const PlaneMoments& plane = *data_.captures[i].plane;
+    double shift = 0.0;
+    for (std::size_t k = 0; k < plane.corner_rays.size(); ++k)
+      shift += std::pow(rangeOf(result_.estimate, i, plane.corner_rays[k]) - plane.corner_ranges[k], 2);
+    shift /= static_cast<double>(plane.corner_rays.size());
+    off += plane.returns * (plane.sigma * plane.sigma + shift);
+    returns += plane.returns;
+  }
+  for (std::size_t camera = 0; camera < squares.size(); ++camera)
+    result_.cameras[camera].rms_px =
+        std::sqrt(squares[camera] / std::max(1, result_.cameras[camera].corners));
+  result_.rms_mm = 1e3 * std::sqrt(off / std::max(1.0, returns));
+}
+
 void Calibrator::judge() {
   tell("verdict", 0.0);
   const Linearisation linear = linearise(data_, result_.estimate, model_);
   const JointCovariance joint = jointCovariance(linear);
   judgeCameras(linear, joint.covariance);
   if (result_.laser && result_.laser->reason.empty()) judgeLaser(linear, joint.covariance);
+  measureResiduals();
   result_.range_bias_sigma = model_.range_bias_sigma;
   result_.data = data_;
 }
@@ -265,7 +325,13 @@ void Calibrator::judge() {
 RigCalibration Calibrator::run() {
   startFromCameras();
   fitCameras();
-  if (input_.laser) calibrateLaser();
+  if (input_.laser) {
+    calibrateLaser();
+  } else {
+    for (std::size_t i = 0; i < data_.captures.size(); ++i) {
+      if (!data_.captures[i].corners.empty()) result_.used.push_back(result_.captures[i].name);
+    }
+  }
   judge();
   return std::move(result_);
 }

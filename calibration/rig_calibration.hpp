@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "calibration/calibration_input.hpp"
-#include "calibration/rig_bundle.hpp"
 #include "calibration/laser_verdict.hpp"
+#include "calibration/rig_bundle.hpp"
 
 namespace thermovox {
 
 struct CalibrationOptions {
-  int threads = 1;  ///< the result does not depend on it
   /// Hears what is being done and how much of it is (0 to 1); may be empty.
   std::function<void(const std::string& stage, double done)> progress;
 };
@@ -35,20 +34,20 @@ struct CameraVerdict {
 struct RigCalibration {
   RigEstimate estimate;
   std::vector<CameraVerdict> cameras;
-  std::optional<LaserVerdict> laser;  ///< where there was a laser to calibrate
-  double rms_mm = 0.0;                ///< of the laser's returns about the boards' planes, along the ray
-  double range_bias_sigma = 0.0;      ///< metres: what all ranges of a capture err by together
-  BundleData data;                    ///< the observations that count
-  std::vector<BoardCapture> captures; ///< as the bundle took them: views turned to one side of the board
-  std::vector<std::string> used;      ///< captures that count, by name
+  std::optional<LaserVerdict> laser;   ///< where there was a laser to calibrate
+  double rms_mm = 0.0;                 ///< of the laser's returns about the boards' planes, along the ray
+  double range_bias_sigma = 0.0;       ///< metres: what all ranges of a capture err by together
+  BundleData data;                     ///< the observations that count
+  std::vector<BoardCapture> captures;  ///< as the bundle took them: views turned to one side of the board
+  std::vector<std::string> used;       ///< captures that count, by name
   std::vector<DroppedCapture> dropped;
   std::vector<std::string> warnings;
 };
 
-/// Calibrates cameras, their poses to each other, and the laser, together: one bundle of corners, board planes
-/// and board edges. See calibration/README.md for the steps. A laser that the captures cannot determine is no
-/// error: `laser->observable` is false and `laser->reason` says why. Throws ConfigError for input that does
-/// not fit together, UnobservableError where the cameras cannot be determined.
+/// Calibrates cameras, their poses to each other, and the laser, together: one bundle of corners, board
+/// planes and board edges. See calibration/README.md for the steps. A laser that the captures cannot
+/// determine is no error: `laser->observable` is false and `laser->reason` says why. Throws ConfigError for
+/// input that does not fit together, UnobservableError where the cameras cannot be determined.
 [[nodiscard]] RigCalibration calibrateRig(const CalibrationInput& input, const CalibrationOptions& options);
 
 }  // namespace thermovox

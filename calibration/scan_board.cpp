@@ -9,13 +9,13 @@
 namespace thermovox {
 namespace {
 
-constexpr double kSameAngle = 1e-5;   // radians: one ray of several sweeps
-constexpr double kJump = 0.04;        // metres from ray to ray: two surfaces
-constexpr double kSteep = 0.08;       // of the range, likewise: steep surfaces far away
-constexpr double kShortest = 0.08;    // metres of board that a line is fitted to
-constexpr double kLongest = 1.1;      // of the plate's diagonal
-constexpr std::size_t kFewest = 6;    // rays
-constexpr double kNotStraight = 0.02; // metres rms
+constexpr double kSameAngle = 1e-5;    // radians: one ray of several sweeps
+constexpr double kJump = 0.04;         // metres from ray to ray: two surfaces
+constexpr double kSteep = 0.08;        // of the range, likewise: steep surfaces far away
+constexpr double kShortest = 0.08;     // metres of board that a line is fitted to
+constexpr double kLongest = 1.1;       // of the plate's diagonal
+constexpr std::size_t kFewest = 6;     // rays
+constexpr double kNotStraight = 0.02;  // metres rms
 
 double medianOf(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -84,8 +84,8 @@ std::vector<std::vector<Eigen::Vector3d>> boardsInScan(const std::vector<Eigen::
   const std::vector<ScanRay> rays = scanRays(returns_laser);
   std::vector<Piece> pieces;
   for (std::size_t first = 0, i = 1; i <= rays.size(); ++i) {
-    const bool ends = i == rays.size() || std::abs(rays[i].range - rays[i - 1].range) >
-                                              std::max(kJump, kSteep * rays[i].range);
+    const bool ends = i == rays.size() ||
+                      std::abs(rays[i].range - rays[i - 1].range) > std::max(kJump, kSteep * rays[i].range);
     if (!ends) continue;
     const double length = (endOf(rays[i - 1]) - endOf(rays[first])).norm();
     if (i - first >= kFewest && length >= kShortest && length <= kLongest * plate.norm() &&

@@ -19,15 +19,16 @@ constexpr double kUnknown = 50.0;                        // tolerances: 10 degre
 constexpr std::array<const char*, 3> kAxes{"x (right)", "y (down)", "z (forward)"};
 
 std::size_t planesIn(const BundleData& data) {
-  return static_cast<std::size_t>(std::count_if(data.captures.begin(), data.captures.end(),
-                                                [](const auto& capture) { return capture.plane.has_value(); }));
+  return static_cast<std::size_t>(
+      std::count_if(data.captures.begin(), data.captures.end(),
+                    [](const auto& capture) { return capture.plane.has_value(); }));
 }
 
 /// How the boards that count were held: the spread of their normals in two directions, and their distances.
 struct BoardGeometry {
-  double larger_tilt = 0.0, smaller_tilt = 0.0;      // radians rms, along the main axes of the tilts
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   // reference camera: what the larger tilt turns about
-  double nearest = 0.0, farthest = 0.0;              // metres
+  double larger_tilt = 0.0, smaller_tilt = 0.0;     // radians rms, along the main axes of the tilts
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // reference camera: what the larger tilt turns about
+  double nearest = 0.0, farthest = 0.0;             // metres
 };
 
 BoardGeometry geometryOf(const BundleData& data, const RigEstimate& estimate) {
@@ -67,7 +68,8 @@ std::optional<std::string> tooFewCaptures(const BundleData& data) {
   const std::size_t fewest = data.laser == LaserKind::beam ? 6 : data.laser == LaserKind::scan ? 4 : 3;
   const std::size_t planes = planesIn(data);
   if (planes >= fewest) return std::nullopt;
-  return fmt::format("{} captures have the board in the images and in the laser's data, expected {} or more", planes, fewest);
+  return fmt::format("{} captures have the board in the images and in the laser's data, expected {} or more",
+                     planes, fewest);
 }
 
 std::string rivalWords(const LaserStart& start) {
@@ -101,22 +103,26 @@ std::vector<std::string> geometryWords(const BundleData& data, const RigEstimate
   const BoardGeometry geometry = geometryOf(data, estimate);
   std::vector<std::string> words;
   if (geometry.larger_tilt < kSmallTilt) {
-    words.push_back(fmt::format("all boards face the same way, within {:.0f} degrees: tilt them by 30 to 60 "
-                                "degrees left, right, up and down",
-                                2.0 * geometry.larger_tilt / kDegree));
+    words.push_back(
+        fmt::format("all boards face the same way, within {:.0f} degrees: tilt them by 30 to 60 "
+                    "degrees left, right, up and down",
+                    2.0 * geometry.larger_tilt / kDegree));
   } else if (geometry.smaller_tilt < std::min(kSmallTilt, 0.25 * geometry.larger_tilt)) {
-    words.push_back(fmt::format("all boards are tilted about one axis, the camera's {}: tilt them about the "
-                                "axis across it as well",
-                                axisName(geometry.axis)));
+    words.push_back(
+        fmt::format("all boards are tilted about one axis, the camera's {}: tilt them about the "
+                    "axis across it as well",
+                    axisName(geometry.axis)));
   }
   if (geometry.farthest < kFewDistances * geometry.nearest) {
-    words.push_back(fmt::format("all boards stand at about one distance, {:.2f} to {:.2f} m: add captures "
-                                "nearer and farther, the farthest three times as far as the nearest",
-                                geometry.nearest, geometry.farthest));
+    words.push_back(
+        fmt::format("all boards stand at about one distance, {:.2f} to {:.2f} m: add captures "
+                    "nearer and farther, the farthest three times as far as the nearest",
+                    geometry.nearest, geometry.farthest));
   }
   if (words.empty() && refused) {
-    words.push_back("the captures do not determine the laser's pose: tilt the board by 30 to 60 degrees in all "
-                    "directions, at near and far distances");
+    words.push_back(
+        "the captures do not determine the laser's pose: tilt the board by 30 to 60 degrees in all "
+        "directions, at near and far distances");
   }
   return words;
 }
@@ -127,12 +133,13 @@ void describe(LaserVerdict& verdict, const BundleData& data, const RigEstimate& 
   shares.tail<3>() /= kShift;
   Eigen::Index largest = 0;
   shares.cwiseAbs().maxCoeff(&largest);
-  const double turn = verdict.weakest.head<3>().norm() / kDegree, shift = 1e3 * verdict.weakest.tail<3>().norm();
-  verdict.weakest_direction = fmt::format(
-      "{} the camera's {} axis: {:.2g} deg and {:.2g} mm together, one sigma", largest < 3 ? "rotation about" : "translation along",
-      kAxes[static_cast<std::size_t>(largest % 3)], turn, shift);
-  const std::vector<std::string> geometry =
-      geometryWords(data, estimate, verdict.weakest_share > kUnknown);
+  const double turn = verdict.weakest.head<3>().norm() / kDegree,
+               shift = 1e3 * verdict.weakest.tail<3>().norm();
+  verdict.weakest_direction =
+      fmt::format("{} the camera's {} axis: {:.2g} deg and {:.2g} mm together, one sigma",
+                  largest < 3 ? "rotation about" : "translation along",
+                  kAxes[static_cast<std::size_t>(largest % 3)], turn, shift);
+  const std::vector<std::string> geometry = geometryWords(data, estimate, verdict.weakest_share > kUnknown);
   if (verdict.weakest_share > kUnknown) {
     verdict.observable = false;
     verdict.reason = verdict.weakest_direction + ": " + geometry.front();
@@ -147,10 +154,11 @@ void describe(LaserVerdict& verdict, const BundleData& data, const RigEstimate& 
   if (verdict.weakest_share > 1.0)
     verdict.warnings.push_back("not yet known to 0.2 deg and 5 mm: " + verdict.weakest_direction);
   if (verdict.jackknife_ratio > 2.0)
-    verdict.warnings.push_back(fmt::format(
-        "leaving captures out one at a time scatters {:.1f} times as far as the covariance says: something that "
-        "is not modelled errs",
-        verdict.jackknife_ratio));
+    verdict.warnings.push_back(
+        fmt::format("leaving captures out one at a time scatters {:.1f} times as far as the covariance says: "
+                    "something that "
+                    "is not modelled errs; the covariance is made as large",
+                    verdict.jackknife_ratio));
 }
 
 }  // namespace thermovox

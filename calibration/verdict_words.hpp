@@ -23,8 +23,8 @@ namespace thermovox {
 [[nodiscard]] std::vector<std::string> geometryWords(const BundleData& data, const RigEstimate& estimate,
                                                      bool refused);
 
-/// Puts the weakest direction into words, adds warnings, and withdraws `observable` where the direction is not
-/// known at all.
+/// Puts the weakest direction into words, adds warnings, and withdraws `observable` where the direction is
+/// not known at all.
 void describe(LaserVerdict& verdict, const BundleData& data, const RigEstimate& estimate);
 
 }  // namespace thermovox

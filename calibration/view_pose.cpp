@@ -23,8 +23,7 @@ std::optional<Pose> poseFromView(const std::vector<Eigen::Vector3d>& points, con
   }
   const Eigen::Vector3d w(turn.at<double>(0), turn.at<double>(1), turn.at<double>(2));
   const Pose T_camera_board{
-      expRotation(w),
-      {translation.at<double>(0), translation.at<double>(1), translation.at<double>(2)}};
+      expRotation(w), {translation.at<double>(0), translation.at<double>(1), translation.at<double>(2)}};
   if (!T_camera_board.rotation.coeffs().allFinite() || !T_camera_board.translation.allFinite())
     return std::nullopt;
   for (const Eigen::Vector3d& point : points) {

@@ -59,16 +59,17 @@ void writeThermalTiff(const std::filesystem::path& path, int width, std::span<co
   if (TIFFFlush(tiff.get()) != 1) refuse(path);
 }
 
-void writeCloudPcd(const std::filesystem::path& path, std::span<const CloudPoint> points) {
+void writeCloudPcd(const std::filesystem::path& path, std::span<const CloudPoint> points, PointTimes times) {
+  const bool timed = times == PointTimes::written;
   const std::string count = std::to_string(points.size());
-  std::string file =
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity time\nSIZE 4 4 4 4 4\n"
-      "TYPE F F F F F\nCOUNT 1 1 1 1 1\nWIDTH " +
-      count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
+  std::string file = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n";
+  file += timed ? "FIELDS x y z intensity time\nSIZE 4 4 4 4 4\nTYPE F F F F F\nCOUNT 1 1 1 1 1\n"
+                : "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n";
+  file += "WIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
   for (const CloudPoint& point : points) {
     const float values[5] = {point.p_laser.x(), point.p_laser.y(), point.p_laser.z(), point.intensity,
                              static_cast<float>(point.time)};
-    file.append(reinterpret_cast<const char*>(values), sizeof values);
+    file.append(reinterpret_cast<const char*>(values), (timed ? 5 : 4) * sizeof(float));
   }
   writeText(path, file);
 }

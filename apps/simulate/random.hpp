@@ -8,7 +8,17 @@ namespace thermovox::simulate {
 
 /// What a stream of random numbers is for: streams of one seed are independent of each other, so that, say,
 /// the noise of frame 7 does not depend on how many rays the laser cast.
-enum class RandomStream : std::uint64_t { hall, flight, errors, thermal_noise, laser = 5 };
+enum class RandomStream : std::uint64_t {
+  hall,
+  flight,
+  errors,
+  thermal_noise,
+  laser = 5,
+  capture_rig,
+  capture_boards,
+  capture_motion,
+  visible_noise
+};
 
 /// Random numbers whose values do not depend on the standard library: the generator is fixed by the standard
 /// and the distributions are made from its bits here.

@@ -1,26 +1,9 @@
 #include "apps/simulate/simulated_rig.hpp"
 
-#include <initializer_list>
-#include <numbers>
+#include "apps/simulate/mounting.hpp"
 
 namespace thermovox::simulate {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-Eigen::Quaterniond rollPitchYaw(double roll_deg, double pitch_deg, double yaw_deg) {
-  return (Eigen::AngleAxisd(yaw_deg * kDegree, Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(pitch_deg * kDegree, Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(roll_deg * kDegree, Eigen::Vector3d::UnitX()))
-      .normalized();
-}
-
-Intrinsics withDistortion(Intrinsics in, std::initializer_list<double> coefficients) {
-  int i = kDistortion;
-  for (const double coefficient : coefficients) in.parameters[i++] = coefficient;
-  in.distortion_count = static_cast<int>(coefficients.size());
-  return in;
-}
 
 Intrinsics makeIntrinsics(LensModel lens) {
   Intrinsics in;
@@ -71,7 +54,7 @@ Laser makeLaser(const SimulationOptions& options) {
 }
 
 /// The kind of a phone's: 640 x 480, 68 degrees across, 5 cm beside the thermal camera.
-MountedCamera makeVisibleCamera(const Eigen::Matrix3d& R_body_optical) {
+MountedCamera makeVisibleCamera() {
   Intrinsics in;
   in.width_px = 640;
   in.height_px = 480;
@@ -79,7 +62,7 @@ MountedCamera makeVisibleCamera(const Eigen::Matrix3d& R_body_optical) {
   in.parameters = {472.3, 471.6, 322.1, 236.8};
   const Eigen::Quaterniond mount = rollPitchYaw(-0.5, 0.4, 0.7);
   return {Camera(withDistortion(in, {-0.118, 0.041, 0.0006, -0.0004, 0.0})),
-          {(mount * Eigen::Quaterniond(R_body_optical)).normalized(), {0.12, 0.01, -0.02}}};
+          {(mount * lookingAhead()).normalized(), {0.12, 0.01, -0.02}}};
 }
 
 }  // namespace
@@ -103,12 +86,9 @@ RadiometricParameters makeRadiometry(const SimulationOptions& options) {
 }
 
 Rig makeRig(const SimulationOptions& options) {
-  // The optical axes: x right, y down, z forward of a camera that looks along the body's x.
-  Eigen::Matrix3d R_body_optical;
-  R_body_optical << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
   const Eigen::Quaterniond mount = rollPitchYaw(0.8, -0.6, -1.1);
   ThermalCamera thermal{Camera(makeIntrinsics(options.lens)),
-                        {(mount * Eigen::Quaterniond(R_body_optical)).normalized(), {0.11, -0.04, -0.03}}};
+                        {(mount * lookingAhead()).normalized(), {0.11, -0.04, -0.03}}};
   thermal.t_linear = TLinear{};
   thermal.netd = options.netd;
   thermal.blur_px = options.blur_px;
@@ -116,8 +96,7 @@ Rig makeRig(const SimulationOptions& options) {
   thermal.bias_sigma = options.errors.camera_bias_sigma;
   Rig rig;
   rig.thermal_camera = thermal;
-  if (options.visible == SimulationOptions::VisibleCamera::present)
-    rig.visible_camera = makeVisibleCamera(R_body_optical);
+  if (options.visible == SimulationOptions::VisibleCamera::present) rig.visible_camera = makeVisibleCamera();
   rig.lasers.push_back(makeLaser(options));
   return rig;
 }

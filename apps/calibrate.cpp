@@ -1,0 +1,103 @@
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "apps/arguments.hpp"
+#include "apps/calibration_job.hpp"
+#include "apps/calibration_output.hpp"
+#include "apps/stage_progress.hpp"
+#include "apps/verbs.hpp"
+#include "io/atomic_file.hpp"
+#include "io/rig_file.hpp"
+#include "projection/error.hpp"
+
+namespace thermovox {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CalibrateArgs {
+  fs::path captures;
+  fs::path rig;
+  CalibrationJob job;
+  bool keep_lens = false;
+  bool json = false;
+  bool force = false;
+};
+
+void runCalibrate(CalibrateArgs args) {
+  if (args.keep_lens) args.job.lens = CameraGuess::Lens::keep;
+  checkEnding(args.rig, {".yaml", ".yml"});
+  checkOutput(args.rig, args.force ? Existing::replace : Existing::refuse);
+  CalibrationRun run;
+  {
+    StageProgress progress;
+    args.job.progress = [&](const std::string& stage, double done) { progress.at(stage, done); };
+    run = runCalibration(args.captures, args.job);
+  }
+  const Rig rig = calibratedRig(run, args.job);
+  const std::string reason = unobservableReason(run, args.job);
+  if (args.json) std::cout << calibrationJson(run, args.job, rig) << std::flush;
+  if (!reason.empty()) throw UnobservableError(args.captures.string() + ": " + reason);
+  writeRig(args.rig, rig);
+  for (const std::string& warning : run.result.warnings) spdlog::warn("{}", warning);
+  if (run.result.laser) {
+    for (const std::string& warning : run.result.laser->warnings) spdlog::warn("{}", warning);
+  }
+  if (!args.json)
+    std::cout << calibrationTable(run, args.job, rig) << "rig     " << args.rig.string() << '\n';
+}
+
+const std::map<std::string, CalibrationCamera> kCameras{{"thermal", CalibrationCamera::thermal},
+                                                        {"visible", CalibrationCamera::visible}};
+
+/// What the three tasks have in common.
+void addCommon(CLI::App& verb, CalibrateArgs& args) {
+  verb.add_option("CAPTURES", args.captures,
+                  "Folder of captures (captures.yaml), with the first guess of the rig")
+      ->required();
+  verb.add_option("-o,--output", args.rig, "Rig to write (.yaml), with covariances")->required();
+  verb.add_flag("--force", args.force, "Replace files that are there");
+  verb.add_flag("--json", args.json, "Print one JSON object");
+  addThreadsOption(verb, args.job.threads);
+}
+
+void addTask(CLI::App& calibrate, const std::string& name, CalibrationTask task, const std::string& help) {
+  auto args = std::make_shared<CalibrateArgs>();
+  args->job.task = task;
+  CLI::App* verb = calibrate.add_subcommand(name, help);
+  addCommon(*verb, *args);
+  if (task != CalibrationTask::stereo)
+    addChoice(*verb, "--camera", args->job.camera, kCameras, "Which camera (default thermal)");
+  if (task == CalibrationTask::laser) {
+    verb->add_option("--laser", args->job.laser, "Which of the rig's lasers, from 0")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber);
+    verb->add_flag("--keep-lens", args->keep_lens,
+                   "Take the cameras' intrinsics from the rig as exact instead of estimating them");
+  }
+  verb->callback([args] { runCalibrate(*args); });
+}
+
+}  // namespace
+
+void addCalibrate(CLI::App& app) {
+  CLI::App* calibrate = app.add_subcommand(
+      "calibrate",
+      "Calibrate a rig from captures of a heated chessboard: lenses, cameras to each other, laser to "
+      "cameras. "
+      "Tilt the board by 30 to 60 degrees in all directions, at near and far distances, 20 captures or more "
+      "(40 for a beam). Exit code 3 says that the captures cannot determine the answer, and why.");
+  calibrate->require_subcommand(1);
+  addTask(*calibrate, "camera", CalibrationTask::camera, "Intrinsics and distortion of one camera.");
+  addTask(*calibrate, "stereo", CalibrationTask::stereo,
+          "Both cameras' intrinsics, and the visible camera's pose against the thermal one's.");
+  addTask(*calibrate, "laser", CalibrationTask::laser,
+          "The laser's pose on the body, together with the lenses and the visible camera where they help.");
+}
+
+}  // namespace thermovox
