@@ -134,6 +134,9 @@ Matrix6d Trial::bound() const {
       capture.edges =
           edgeSides(input_.captures[i].returns_laser, set_.laser,
                     trueLaser().inverse() * capture.T_reference_board, board_, scene_.options().range_sigma);
+      for (EdgeSide& side : capture.edges) {
+        if (set_.laser == LaserKind::beam) side.crossings.front().sigma = kGrazing;
+      }
     }
     set_up.captures.push_back(std::move(capture));
   }
