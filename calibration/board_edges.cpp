@@ -16,7 +16,7 @@ constexpr double kBehind = 0.06;     // metres behind it: another surface
 constexpr double kNear = 0.03;       // metres: a crossing is so near to its edge
 constexpr double kDoubt = 0.03;      // metres: the next edge is so much farther
 constexpr double kSpot = 0.001;      // metres, one sigma: what is unsharp besides the gap of the rays
-constexpr double kBeamSpot = 0.006;  // radians, one sigma: a beam has no neighbours, only a width
+constexpr double kBeamSpot = 0.003;  // radians, one sigma of where in a beam (8 mrad wide) an edge is
 constexpr double kWidestGap = 0.05;  // metres between the two rays on the board
 constexpr double kGrazing = 0.34;    // cosine of the incidence
 
