@@ -243,6 +243,7 @@ CaptureSelection selectCaptures(const std::vector<CaptureSight>& sights, LaserKi
     state.counts[*best] = true;
     fit.refit();
   }
+  if (planes <= static_cast<double>(kFewest + 1)) return state;
   // Whoever came in while the sigma was thought larger has to pass by the sigma of all.
   fit.judgeWhole();
   for (auto worst = extreme(sights, state, true); worst && state.probability[*worst] < kUnlikely;

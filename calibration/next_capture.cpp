@@ -44,7 +44,11 @@ Stand standOf(const BundleData& data, const RigEstimate& estimate) {
     distances.push_back(estimate.T_reference_board[i].translation.norm());
   }
   const auto [nearest, farthest] = std::minmax_element(distances.begin(), distances.end());
-  return {sum.normalized(), {*nearest, std::sqrt(*nearest * *farthest), 1.5 * *farthest}};
+  // As far as the squares are still found: six pixels.
+  const double square = (data.points[1] - data.points[0]).norm();
+  const double reach = estimate.cameras.front().parameters[kFx] * square / 6.0;
+  return {sum.normalized(),
+          {*nearest, std::sqrt(*nearest * *farthest), std::clamp(reach, *farthest, 1.5 * *farthest)}};
 }
 
 /// Rays of the laser as they met a board of the captures, and the sigma of a range: one stands for all.

@@ -23,7 +23,8 @@ namespace {
 constexpr double kInset = 0.01;         // metres from the plate's edge: mixed returns
 constexpr double kSlack = 0.03;         // metres off the plane, and five sigmas of the laser
 constexpr double kWellExplained = 0.3;  // mean cost of a start, 0 to 1, that needs no wider search
-constexpr int kLaserRounds = 3;         // of extraction and bundle
+constexpr int kSelectionRounds = 3;     // of planes and which of them count
+constexpr int kBundleRounds = 2;        // of planes, edges and the bundle
 
 /// Where a ray of the laser meets the board of a capture, metres.
 double rangeOf(const RigEstimate& estimate, std::size_t capture, const Eigen::Vector3d& ray_laser) {
@@ -44,11 +45,14 @@ class Calibrator {
   }
   void startFromCameras();
   void fitCameras();
+  [[nodiscard]] BundleFit withThirdRadial(BundleFit fit);
   void calibrateLaser();
   [[nodiscard]] std::optional<LaserStart> findLaser();
   [[nodiscard]] std::vector<LaserSight> sights(bool near_guess) const;
-  void takePlanes(const RigEstimate& estimate, bool with_edges);
+  enum class EdgesToo { no, yes };
+  void takePlanes(const RigEstimate& estimate, EdgesToo edges);
   [[nodiscard]] std::vector<CaptureSight> captureSights() const;
+  void fitTogether(RigEstimate estimate);
   void dropCaptures(const CaptureSelection& selection, const RigEstimate& estimate);
   void refuseLaser(const std::string& reason);
   void measureResiduals();
@@ -96,6 +100,24 @@ void Calibrator::startFromCameras() {
   }
 }
 
+/// Frees k3 where the corners fit so much better with it that chance does not explain it (1 in 1000).
+BundleFit Calibrator::withThirdRadial(BundleFit fit) {
+  constexpr double kBetter = 10.8;  // of the sum of squares
+  for (std::size_t camera = 0; camera < input_.cameras.size(); ++camera) {
+    const Intrinsics& lens = input_.cameras[camera].intrinsics;
+    std::vector<int>& free = model_.free_intrinsics[camera];
+    if (lens.model != LensModel::brown_conrady || lens.distortion_count < 5 || free.empty()) continue;
+    free.push_back(kDistortion + 4);
+    const BundleFit more = solveBundle(data_, fit.estimate, model_);
+    if (2.0 * (fit.cost - more.cost) > kBetter) {
+      fit = more;
+    } else {
+      free.pop_back();
+    }
+  }
+  return fit;
+}
+
 void Calibrator::fitCameras() {
   tell("cameras", 0.5);
   model_.corner_loss = BundleModel::Loss::huber;
@@ -103,7 +125,7 @@ void Calibrator::fitCameras() {
   const std::vector<int> outliers = dropCornerOutliers(data_, fit.estimate, model_);
   for (std::size_t i = 0; i < outliers.size(); ++i) result_.cameras[i].corner_outliers = outliers[i];
   model_.corner_loss = BundleModel::Loss::none;
-  fit = fitWithNoise(data_, fit.estimate, model_);
+  fit = withThirdRadial(fitWithNoise(data_, fit.estimate, model_));
   result_.estimate = fit.estimate;
   const Linearisation linear = linearise(data_, fit.estimate, model_);
   const Eigen::MatrixXd covariance = jointCovariance(linear).covariance;
@@ -162,7 +184,7 @@ std::optional<LaserStart> Calibrator::findLaser() {
 
 /// The returns that are on the plates as the estimate has them, of the captures that count; of the others
 /// what was found without it.
-void Calibrator::takePlanes(const RigEstimate& estimate, bool with_edges) {
+void Calibrator::takePlanes(const RigEstimate& estimate, EdgesToo edges) {
   const LaserGuess& laser = *input_.laser;
   for (std::size_t i = 0; i < data_.captures.size(); ++i) {
     CaptureObservations& capture = data_.captures[i];
@@ -177,7 +199,7 @@ void Calibrator::takePlanes(const RigEstimate& estimate, bool with_edges) {
                                   laser.kind, laser.range_sigma);
       if (moments) capture.plane = *std::move(moments);
     }
-    if (with_edges)
+    if (edges == EdgesToo::yes)
       capture.edges = edgeSides(returns, laser.kind, T_laser_board, input_.board, capture.plane->sigma);
   }
 }
@@ -186,35 +208,43 @@ void Calibrator::calibrateLaser() {
   result_.laser.emplace();
   const std::optional<LaserStart> start = findLaser();
   if (!start) return refuseLaser("no capture has the board in the laser's data");
-  if (start->rival) return refuseLaser(rivalWords(*start));
   counts_.assign(planes_.size(), true);
   RigEstimate estimate = result_.estimate;
+  takePlanes(estimate, EdgesToo::no);
+  if (const auto reason = tooFewCaptures(data_)) return refuseLaser(*reason);
+  if (start->rival) return refuseLaser(rivalWords(*start, data_, estimate));
   estimate.T_reference_laser = start->T_reference_laser;
   if (data_.laser == LaserKind::beam)
     estimate.T_reference_laser = withRollOf(input_.laser->T_reference_laser, start->T_reference_laser);
-  for (int round = 0; round < kLaserRounds; ++round) {
-    tell("laser", static_cast<double>(round) / kLaserRounds);
-    takePlanes(estimate, round > 0);
-    if (const auto reason = tooFewCaptures(data_)) return refuseLaser(*reason);
+  for (int round = 0; round < kSelectionRounds; ++round) {
+    tell("captures that fit", static_cast<double>(round) / kSelectionRounds);
+    if (round > 0) takePlanes(estimate, EdgesToo::no);
     const CaptureSelection selection =
         selectCaptures(captureSights(), data_.laser, estimate.T_reference_laser);
     counts_ = selection.counts;
     model_.range_bias_sigma = selection.range_bias_sigma;
     estimate.T_reference_laser = selection.T_reference_laser;
-    if (round + 1 == kLaserRounds) dropCaptures(selection, estimate);
+    if (round + 1 == kSelectionRounds) dropCaptures(selection, estimate);
   }
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
-    if (counts_[i]) continue;
-    data_.captures[i].plane.reset();
-    data_.captures[i].edges.clear();
+  fitTogether(std::move(estimate));
+}
+
+/// Planes and edges of the captures that count, and the bundle, in turn: edges are found where the last
+/// estimate has them.
+void Calibrator::fitTogether(RigEstimate estimate) {
+  for (int round = 0; round < kBundleRounds; ++round) {
+    tell("bundle", static_cast<double>(round) / kBundleRounds);
+    takePlanes(estimate, EdgesToo::yes);
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      if (!counts_[i]) data_.captures[i].plane.reset();
+    }
+    BundleFit fit = fitWithNoise(data_, estimate, model_);
+    if (dropEdgeOutliers(data_, fit.estimate, model_) > 0) fit = fitWithNoise(data_, fit.estimate, model_);
+    estimate = std::move(fit.estimate);
   }
-  tell("bundle", 0.0);
-  BundleFit fit = fitWithNoise(data_, estimate, model_);
-  if (dropEdgeOutliers(data_, fit.estimate, model_) > 0) fit = fitWithNoise(data_, fit.estimate, model_);
-  result_.estimate = fit.estimate;
   if (data_.laser == LaserKind::beam)
-    result_.estimate.T_reference_laser =
-        withRollOf(input_.laser->T_reference_laser, result_.estimate.T_reference_laser);
+    estimate.T_reference_laser = withRollOf(input_.laser->T_reference_laser, estimate.T_reference_laser);
+  result_.estimate = std::move(estimate);
 }
 
 std::vector<CaptureSight> Calibrator::captureSights() const {
@@ -275,7 +305,8 @@ void Calibrator::judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& 
   const LaserVerdictInput about{.kind = data_.laser,
                                 .free_intrinsics = model_.free_intrinsics.front(),
                                 .captures = static_cast<int>(data_.captures.size())};
-  if (covariance.size() == 0) return refuseLaser(geometryWords(data_, result_.estimate, true).front());
+  if (covariance.size() == 0)
+    return refuseLaser(undeterminedWords("the laser's pose", data_, result_.estimate));
   result_.laser = laserVerdict(linear, covariance, result_.estimate, about);
   describe(*result_.laser, data_, result_.estimate, model_.range_bias_sigma);
 }
