@@ -12,8 +12,10 @@
 #include "calibration/camera_start.hpp"
 #include "calibration/capture_selection.hpp"
 #include "calibration/free_intrinsics.hpp"
+#include "calibration/laser_sights.hpp"
 #include "calibration/laser_start.hpp"
 #include "calibration/noise_model.hpp"
+#include "calibration/residual_summary.hpp"
 #include "calibration/verdict_words.hpp"
 #include "projection/error.hpp"
 
@@ -25,12 +27,6 @@ constexpr double kSlack = 0.03;         // metres off the plane, and five sigmas
 constexpr double kWellExplained = 0.3;  // mean cost of a start, 0 to 1, that needs no wider search
 constexpr int kSelectionRounds = 3;     // of planes and which of them count
 constexpr int kBundleRounds = 2;        // of planes, edges and the bundle
-
-/// Where a ray of the laser meets the board of a capture, metres.
-double rangeOf(const RigEstimate& estimate, std::size_t capture, const Eigen::Vector3d& ray_laser) {
-  const Pose T_board_laser = estimate.T_reference_board[capture].inverse() * estimate.T_reference_laser;
-  return -T_board_laser.translation.z() / (T_board_laser.rotation * ray_laser).z();
-}
 
 class Calibrator {
  public:
@@ -48,14 +44,12 @@ class Calibrator {
   [[nodiscard]] BundleFit withThirdRadial(BundleFit fit);
   void calibrateLaser();
   [[nodiscard]] std::optional<LaserStart> findLaser();
-  [[nodiscard]] std::vector<LaserSight> sights(bool near_guess) const;
   enum class EdgesToo { no, yes };
   void takePlanes(const RigEstimate& estimate, EdgesToo edges);
   [[nodiscard]] std::vector<CaptureSight> captureSights() const;
   void fitTogether(RigEstimate estimate);
   void dropCaptures(const CaptureSelection& selection, const RigEstimate& estimate);
   void refuseLaser(const std::string& reason);
-  void measureResiduals();
   void judge();
   void judgeCameras(const Linearisation& linear, const Eigen::MatrixXd& covariance);
   void judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& covariance);
@@ -135,38 +129,13 @@ void Calibrator::fitCameras() {
   }
 }
 
-/// What may be the board in each capture's returns; near where the guess has it, or anywhere.
-std::vector<LaserSight> Calibrator::sights(bool near_guess) const {
-  const LaserGuess& laser = *input_.laser;
-  const double diagonal = plateOf(input_.board).norm();
-  std::vector<LaserSight> sights;
-  for (std::size_t i = 0; i < result_.captures.size(); ++i) {
-    sights.push_back({result_.estimate.T_reference_board[i], {}});
-    if (data_.captures[i].corners.empty()) continue;
-    ReturnSet returns = result_.captures[i].returns_laser;
-    if (near_guess && laser.kind == LaserKind::cloud) {
-      const Eigen::Vector3d middle =
-          laser.T_reference_laser.inverse() * sights.back().T_reference_board.translation;
-      const double reach = 0.5 * diagonal + 0.1 + 0.2 * middle.norm();  // 11 degrees
-      returns.erase(std::remove_if(returns.begin(), returns.end(),
-                                   [&](const auto& p) { return (p - middle).norm() > reach; }),
-                    returns.end());
-    }
-    for (const ReturnSet& candidate : boardCandidates(returns, laser.kind, input_.board)) {
-      if (auto moments = planeMoments(candidate, laser.kind, laser.range_sigma))
-        sights.back().candidates.push_back(*std::move(moments));
-    }
-    tell("board in the laser", static_cast<double>(i + 1) / static_cast<double>(result_.captures.size()));
-  }
-  return sights;
-}
-
 /// First near the guess; where that explains too little, anywhere.
 std::optional<LaserStart> Calibrator::findLaser() {
   std::optional<LaserStart> best;
   std::vector<LaserSight> best_sights;
-  for (const bool near_guess : {true, false}) {
-    std::vector<LaserSight> found = sights(near_guess);
+  for (const SearchWhere where : {SearchWhere::near_guess, SearchWhere::anywhere}) {
+    std::vector<LaserSight> found =
+        laserSights(input_, result_.captures, result_.estimate.T_reference_board, where, options_.progress);
     std::optional<LaserStart> start =
         startLaser(found, data_.laser, input_.laser->T_reference_laser, plateOf(input_.board));
     if (start && (!best || start->cost < best->cost)) {
@@ -311,44 +280,18 @@ void Calibrator::judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& 
   describe(*result_.laser, data_, result_.estimate, model_.range_bias_sigma);
 }
 
-/// What is left of the corners and the returns beside the estimate.
-void Calibrator::measureResiduals() {
-  const std::vector<Eigen::Vector3d>& points = data_.points;
-  std::vector<double> squares(result_.cameras.size(), 0.0);
-  double returns = 0.0, off = 0.0;
-  for (std::size_t i = 0; i < data_.captures.size(); ++i) {
-    const Pose& board = result_.estimate.T_reference_board[i];
-    for (const CornerObservation& corner : data_.captures[i].corners) {
-      const auto camera = static_cast<std::size_t>(corner.camera);
-      const Eigen::Vector3d p = result_.estimate.T_camera_reference[camera] *
-                                (board * points[static_cast<std::size_t>(corner.point)]);
-      const Intrinsics& lens = result_.estimate.cameras[camera];
-      squares[camera] +=
-          (pixelFromCamera<double>(lens.model, lens.parameters.data(), p) - corner.pixel).squaredNorm();
-      ++result_.cameras[camera].corners;
-    }
-    if (!data_.captures[i].plane) continue;
-    const PlaneMoments& plane = *data_.captures[i].plane;
-    double shift = 0.0;
-    for (std::size_t k = 0; k < plane.corner_rays.size(); ++k)
-      shift += std::pow(rangeOf(result_.estimate, i, plane.corner_rays[k]) - plane.corner_ranges[k], 2);
-    shift /= static_cast<double>(plane.corner_rays.size());
-    off += plane.returns * (plane.sigma * plane.sigma + shift);
-    returns += plane.returns;
-  }
-  for (std::size_t camera = 0; camera < squares.size(); ++camera)
-    result_.cameras[camera].rms_px =
-        std::sqrt(squares[camera] / std::max(1, result_.cameras[camera].corners));
-  result_.rms_mm = 1e3 * std::sqrt(off / std::max(1.0, returns));
-}
-
 void Calibrator::judge() {
   tell("verdict", 0.0);
   const Linearisation linear = linearise(data_, result_.estimate, model_);
   const JointCovariance joint = jointCovariance(linear);
   judgeCameras(linear, joint.covariance);
   if (result_.laser && result_.laser->reason.empty()) judgeLaser(linear, joint.covariance);
-  measureResiduals();
+  const ResidualSummary residuals = summarise(data_, result_.estimate);
+  for (std::size_t i = 0; i < result_.cameras.size(); ++i) {
+    result_.cameras[i].corners = residuals.corners[i];
+    result_.cameras[i].rms_px = residuals.rms_px[i];
+  }
+  result_.rms_mm = residuals.rms_mm;
   result_.range_bias_sigma = model_.range_bias_sigma;
   result_.data = data_;
 }
