@@ -9,6 +9,7 @@
 #include "apps/arguments.hpp"
 #include "apps/calibration_job.hpp"
 #include "apps/calibration_output.hpp"
+#include "apps/calibration_report.hpp"
 #include "apps/stage_progress.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 struct CalibrateArgs {
   fs::path captures;
   fs::path rig;
+  fs::path report;  ///< empty: none
   CalibrationJob job;
   bool keep_lens = false;
   bool json = false;
@@ -32,7 +34,12 @@ struct CalibrateArgs {
 void runCalibrate(CalibrateArgs args) {
   if (args.keep_lens) args.job.lens = CameraGuess::Lens::keep;
   checkEnding(args.rig, {".yaml", ".yml"});
-  checkOutput(args.rig, args.force ? Existing::replace : Existing::refuse);
+  const Existing existing = args.force ? Existing::replace : Existing::refuse;
+  checkOutput(args.rig, existing);
+  if (!args.report.empty()) {
+    checkEnding(args.report, {".html"});
+    checkOutput(args.report, existing);
+  }
   CalibrationRun run;
   {
     StageProgress progress;
@@ -42,6 +49,7 @@ void runCalibrate(CalibrateArgs args) {
   const Rig rig = calibratedRig(run, args.job);
   const std::string reason = unobservableReason(run, args.job);
   if (args.json) std::cout << calibrationJson(run, args.job, rig) << std::flush;
+  if (!args.report.empty()) writeCalibrationReport(run, args.job, rig, args.report, existing);
   if (!reason.empty()) throw UnobservableError(args.captures.string() + ": " + reason);
   writeRig(args.rig, rig);
   for (const std::string& warning : run.result.warnings) spdlog::warn("{}", warning);
@@ -61,6 +69,8 @@ void addCommon(CLI::App& verb, CalibrateArgs& args) {
                   "Folder of captures (captures.yaml), with the first guess of the rig")
       ->required();
   verb.add_option("-o,--output", args.rig, "Rig to write (.yaml), with covariances")->required();
+  verb.add_option("--report", args.report,
+                  "Also write a report (.html) with pictures of every capture; also where exit code is 3");
   verb.add_flag("--force", args.force, "Replace files that are there");
   verb.add_flag("--json", args.json, "Print one JSON object");
   addThreadsOption(verb, args.job.threads);
