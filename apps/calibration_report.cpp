@@ -124,9 +124,13 @@ void addLaser(CalibrationReport& report, const CalibrationRun& run) {
 std::vector<std::string> findingsOf(const CalibrationRun& run) {
   std::vector<std::string> findings;
   if (run.result.laser && run.result.laser->observable) {
-    for (const PixelTransfer& transfer : run.result.laser->transfer)
-      findings.push_back(fmt::format("A point {:g} m away is put {:.2f} px beside its pixel (one sigma).",
-                                     transfer.distance, transfer.sigma_px));
+    std::string distances, pixels;
+    for (const PixelTransfer& transfer : run.result.laser->transfer) {
+      distances += fmt::format("{}{:g}", distances.empty() ? "" : " / ", transfer.distance);
+      pixels += fmt::format("{}{:.2f}", pixels.empty() ? "" : " / ", transfer.sigma_px);
+    }
+    findings.push_back("A point that the laser measures at " + distances + " m is put " + pixels +
+                       " px beside its pixel (one sigma).");
     findings.push_back("Weakest: " + run.result.laser->weakest_direction + ".");
   }
   for (std::size_t i = 0; i < run.cameras.size(); ++i) {
@@ -139,8 +143,11 @@ std::vector<std::string> findingsOf(const CalibrationRun& run) {
                               run.result.estimate.cameras[i].parameters[kFx]);
     findings.push_back(text + ".");
   }
-  findings.push_back(fmt::format("{} of {} captures count; {} images show no board.", run.result.used.size(),
-                                 run.folder.captures.size(), run.without_board.size()));
+  std::string counted =
+      fmt::format("{} of {} captures count", run.result.used.size(), run.folder.captures.size());
+  if (!run.without_board.empty())
+    counted += fmt::format("; in {} images no board was found", run.without_board.size());
+  findings.push_back(counted + ".");
   return findings;
 }
 

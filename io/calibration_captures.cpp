@@ -13,23 +13,6 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 
-/// What is left of a view's corners: how many count, and how far they are off.
-struct ViewNumbers {
-  std::size_t counted = 0, left_out = 0;
-  double rms_px = std::nan("");
-};
-
-ViewNumbers numbersOf(const ReportedView& view) {
-  ViewNumbers numbers;
-  double squares = 0.0;
-  for (const ReportedCorner& corner : view.corners) {
-    ++(corner.counts ? numbers.counted : numbers.left_out);
-    if (corner.counts && corner.modelled) squares += (corner.found - *corner.modelled).squaredNorm();
-  }
-  if (numbers.counted > 0) numbers.rms_px = std::sqrt(squares / static_cast<double>(numbers.counted));
-  return numbers;
-}
-
 const ReportedView* viewOf(const ReportedCapture& capture, std::size_t camera) {
   const auto view = std::find_if(capture.views.begin(), capture.views.end(),
                                  [&](const ReportedView& other) { return other.camera == camera; });
@@ -58,8 +41,8 @@ bool anyRanges(const CalibrationReport& report) {
 }
 
 std::string verdictOf(const ReportedCapture& capture) {
-  std::string text = capture.counts ? "<span class=\"chip s0\">counts</span> "
-                                    : "<span class=\"chip s3\">left out</span> ";
+  std::string text =
+      capture.counts ? "<span class=\"chip s0\">counts</span> " : "<span class=\"chip s3\">left out</span> ";
   text += escaped(capture.reason);
   return text;
 }
@@ -131,37 +114,45 @@ std::string viewFigure(const CalibrationReport& report, const ReportedView& view
 std::string returnsFigure(const CalibrationReport& report, const ReportedCapture& capture,
                           const ReportedView& view, const std::string& id) {
   const double limit = residualLimit(report);
-  std::string caption = report.by_first_guess
-                            ? "The laser's returns where the rig's <b>first guess</b> puts them"
-                            : "The laser's returns on the board";
+  const std::string what = report.by_first_guess
+                               ? "The laser's returns where the rig's <b>first guess</b> puts them"
+                               : "The laser's returns on the board, those left out as rings";
+  return figure(returnsDrawing(view, capture, limit, id) + residualBar(limit),
+                what + ". Blue: before the board, red: behind it, along the ray.");
+}
+
+std::string captureFacts(const ReportedCapture& capture) {
+  std::vector<std::pair<std::string, std::string>> facts;
+  if (capture.board) {
+    facts.emplace_back("distance", numberText(capture.board->distance, 3) + " m");
+    facts.emplace_back("tilt about the camera's x, y", numberText(capture.board->tilt_x_deg, 1) + "&deg;, " +
+                                                           numberText(capture.board->tilt_y_deg, 1) +
+                                                           "&deg;");
+  }
   if (capture.ranges) {
     const ReportedRanges& seen = *capture.ranges;
-    caption += fmt::format(
-        ": {} ({} left out, drawn as rings), {} mm off the board on the average, {} mm "
-        "about their own plane",
-        groupedText(seen.returns), seen.left_out, numberText(seen.offset_mm, 1),
-        numberText(seen.scatter_mm, 1));
+    facts.emplace_back("returns on the board", groupedText(seen.returns));
+    facts.emplace_back("of them left out", groupedText(seen.left_out));
+    facts.emplace_back("mean offset behind the board", numberText(seen.offset_mm, 1) + " mm");
+    if (seen.bias_mm) facts.emplace_back("of it taken for bias", numberText(*seen.bias_mm, 1) + " mm");
+    facts.emplace_back("about their own plane", numberText(seen.scatter_mm, 1) + " mm");
   }
-  return figure(returnsDrawing(view, capture, limit, id) + residualBar(limit),
-                caption + ". Blue: before the board, red: behind it, along the ray.");
+  return facts.empty() ? "" : "<div class=\"beside\">" + factTable(facts) + "</div>\n";
 }
 
 std::string capturePage(const CalibrationReport& report, std::size_t i) {
   const ReportedCapture& capture = report.captures[i];
   std::string text = fmt::format("<div class=\"whole\" id=\"capture-{}\"><h3>{}. {}</h3>\n<p>", i + 1, i + 1,
                                  named(capture.name));
-  if (capture.board) {
-    text += fmt::format("{} m away, tilted by {}&deg;. ", numberText(capture.board->distance, 2),
-                        numberText(tiltOf(*capture.board), 0));
-  }
-  text += verdictOf(capture) + "</p>\n<div class=\"columns\">\n";
+  text += verdictOf(capture) + "</p>\n<div class=\"capture\">\n";
   const std::string id = fmt::format("image-{}-", i + 1);
-  for (const ReportedView& view : capture.views)
-    text += viewFigure(report, view, id + std::to_string(view.camera));
   const ReportedView* reference = viewOf(capture, 0);
-  if (!capture.returns.empty() && reference != nullptr && reference->picture)
-    text += returnsFigure(report, capture, *reference, id + "0");
-  return text + "</div></div>\n";
+  for (const ReportedView& view : capture.views) {
+    text += viewFigure(report, view, id + std::to_string(view.camera));
+    if (&view == reference && !capture.returns.empty() && view.picture)
+      text += returnsFigure(report, capture, view, id + "0");
+  }
+  return text + captureFacts(capture) + "</div></div>\n";
 }
 
 }  // namespace

@@ -153,6 +153,11 @@ std::string cameraFigures(const CalibrationReport& report, std::size_t camera) {
     text += figure(histogram,
                    "How often residuals in u and v were how large (grey), and a Gaussian of the same width "
                    "(red). Long tails are corners that were found wrongly.");
+  const std::string bars = captureBars(report, camera);
+  if (!bars.empty())
+    text += figure(bars,
+                   "Residuals of each capture, px rms, with its number. One that stands out was blurred, "
+                   "or its board was bent or moved.");
   return text + "</div>\n";
 }
 

@@ -35,6 +35,16 @@ struct Coverage {
 /// How often residuals (u and v alike) were how large, against a Gaussian of the same width.
 [[nodiscard]] std::string residualHistogram(const CalibrationReport& report, std::size_t camera);
 
+/// The rms of each capture's residuals, with its number.
+[[nodiscard]] std::string captureBars(const CalibrationReport& report, std::size_t camera);
+
+/// What is left of a view's corners: how many count, and how far they are off (not finite where unknown).
+struct ViewNumbers {
+  std::size_t counted = 0, left_out = 0;
+  double rms_px = 0.0;
+};
+[[nodiscard]] ViewNumbers numbersOf(const ReportedView& view);
+
 /// The boards' tilts about the camera's axes, coloured by distance.
 [[nodiscard]] std::string tiltPlot(const CalibrationReport& report);
 

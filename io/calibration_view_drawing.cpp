@@ -133,7 +133,12 @@ std::string returnsDrawing(const ReportedView& view, const ReportedCapture& capt
                            const std::string& id) {
   if (!view.picture) return {};
   const double unit = unitOf(*view.picture);
-  std::string content = fmt::format("<use href=\"#{}\"/>\n", id);
+  const Eigen::AlignedBox2d& window = view.picture->window;
+  std::string content = fmt::format(
+      "<use href=\"#{}\"/><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+      "fill=\"#16191d\" "
+      "fill-opacity=\"0.6\"/>\n",
+      id, window.min().x(), window.min().y(), window.sizes().x(), window.sizes().y());
   for (const ReportedReturn& echo : capture.returns) {
     if (!echo.pixel.allFinite() || !std::isfinite(echo.residual_mm)) continue;
     content += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" {}/>\n", echo.pixel.x(),
