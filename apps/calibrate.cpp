@@ -44,7 +44,13 @@ void runCalibrate(CalibrateArgs args) {
   {
     StageProgress progress;
     args.job.progress = [&](const std::string& stage, double done) { progress.at(stage, done); };
-    run = runCalibration(args.captures, args.job);
+    run = readCalibration(args.captures, args.job);
+    try {
+      calibrate(run, args.job);
+    } catch (const UnobservableError&) {
+      if (!args.report.empty()) writeCalibrationReport(run, args.job, run.folder.rig, args.report, existing);
+      throw;
+    }
   }
   const Rig rig = calibratedRig(run, args.job);
   const std::string reason = unobservableReason(run, args.job);

@@ -56,8 +56,9 @@ std::vector<ReportedNumber> intrinsicsOf(const CameraVerdict& verdict, const Int
 }
 
 ReportedCamera cameraOf(const CalibrationRun& run, std::size_t i) {
-  const CameraVerdict& verdict = run.result.cameras[i];
-  const Intrinsics& lens = run.result.estimate.cameras[i];
+  const Intrinsics& guess = run.input.cameras[i].intrinsics;
+  const CameraVerdict verdict = run.refused.empty() ? run.result.cameras[i] : CameraVerdict{};
+  const Intrinsics& lens = run.refused.empty() ? run.result.estimate.cameras[i] : guess;
   return {.name = nameOf(run.cameras[i]),
           .width_px = lens.width_px,
           .height_px = lens.height_px,
@@ -65,7 +66,7 @@ ReportedCamera cameraOf(const CalibrationRun& run, std::size_t i) {
           .left_out = verdict.corner_outliers,
           .rms_px = verdict.rms_px,
           .corner_factor = verdict.corner_factor,
-          .intrinsics = intrinsicsOf(verdict, lens, run.input.cameras[i].intrinsics),
+          .intrinsics = intrinsicsOf(verdict, lens, guess),
           .covariance = verdict.covariance_intrinsics};
 }
 
@@ -83,7 +84,7 @@ void addPoses(CalibrationReport& report, const CalibrationRun& run, const Calibr
          .guess = run.folder.rig.lasers[laser].T_body_laser,
          .covariance = rig.lasers[laser].covariance_body_laser});
   }
-  for (std::size_t i = 1; i < run.cameras.size(); ++i) {
+  for (std::size_t i = 1; i < run.result.cameras.size(); ++i) {
     if (!run.result.cameras[i].pose_estimated) continue;
     report.poses.push_back({.name = "T_body_camera of the visible camera",
                             .note = "The thermal camera's is kept: it is what the others are measured from.",
@@ -133,7 +134,7 @@ std::vector<std::string> findingsOf(const CalibrationRun& run) {
                        " px beside its pixel (one sigma).");
     findings.push_back("Weakest: " + run.result.laser->weakest_direction + ".");
   }
-  for (std::size_t i = 0; i < run.cameras.size(); ++i) {
+  for (std::size_t i = 0; i < run.result.cameras.size(); ++i) {
     const CameraVerdict& verdict = run.result.cameras[i];
     std::string text = fmt::format("The {} found the board in {} images; reprojection error {:.3f} px rms",
                                    nameOf(run.cameras[i]), verdict.views, verdict.rms_px);
@@ -143,8 +144,8 @@ std::vector<std::string> findingsOf(const CalibrationRun& run) {
                               run.result.estimate.cameras[i].parameters[kFx]);
     findings.push_back(text + ".");
   }
-  std::string counted =
-      fmt::format("{} of {} captures count", run.result.used.size(), run.folder.captures.size());
+  std::string counted = fmt::format("{} of {} captures count{}", run.result.used.size(),
+                                    run.folder.captures.size(), run.input.laser ? " for the laser" : "");
   if (!run.without_board.empty())
     counted += fmt::format("; in {} images no board was found", run.without_board.size());
   findings.push_back(counted + ".");
@@ -159,7 +160,7 @@ void writeCalibrationReport(const CalibrationRun& run, const CalibrationJob& job
   report.title = run.folder.name;
   report.task = taskOf(job);
   report.version = THERMOVOX_VERSION;
-  report.reason = unobservableReason(run, job);
+  report.reason = run.refused.empty() ? unobservableReason(run, job) : run.refused;
   report.determined = report.reason.empty();
   report.findings = findingsOf(run);
   report.warnings = run.result.warnings;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "io/calibration_plots.hpp"
@@ -51,7 +52,7 @@ std::string captureTable(const CalibrationReport& report) {
   std::vector<std::string> heads{"#", "capture", "distance<br>m", "tilt<br>&deg;"};
   std::string alignment = "rlrr";
   for (const ReportedCamera& camera : report.cameras) {
-    heads.push_back(escaped(camera.name) + "<br>corners &middot; rms px");
+    heads.push_back(escaped(camera.name) + "<br>corners&nbsp;&middot;&nbsp;px");
     alignment += "r";
   }
   const bool ranges = anyRanges(report);
@@ -155,6 +156,30 @@ std::string capturePage(const CalibrationReport& report, std::size_t i) {
   return text + captureFacts(capture) + "</div></div>\n";
 }
 
+/// How many boards that count were tilted which way.
+std::string directionTable(const CalibrationReport& report) {
+  constexpr double kTilted = 15.0;  // degrees
+  std::array<std::size_t, 4> counts{};
+  double nearest = 1e9, farthest = 0.0;
+  for (const ReportedCapture& capture : report.captures) {
+    if (!capture.counts || !capture.board) continue;
+    const ReportedBoard& board = *capture.board;
+    counts[0] += board.tilt_y_deg >= kTilted ? 1 : 0;
+    counts[1] += board.tilt_y_deg <= -kTilted ? 1 : 0;
+    counts[2] += board.tilt_x_deg <= -kTilted ? 1 : 0;
+    counts[3] += board.tilt_x_deg >= kTilted ? 1 : 0;
+    nearest = std::min(nearest, board.distance);
+    farthest = std::max(farthest, board.distance);
+  }
+  if (nearest > farthest) return "<p>None of them counts.</p>\n";
+  return factTable({{"facing left by 15&deg; or more", countText(counts[0], "board")},
+                    {"facing right", countText(counts[1], "board")},
+                    {"facing up", countText(counts[2], "board")},
+                    {"facing down", countText(counts[3], "board")},
+                    {"distances", numberText(nearest, 2) + " to " + numberText(farthest, 2) + " m"}}) +
+         "<p class=\"note\">Left, right, up and down are those of the image; only captures that count.</p>\n";
+}
+
 }  // namespace
 
 std::string boardSection(const CalibrationReport& report) {
@@ -164,8 +189,9 @@ std::string boardSection(const CalibrationReport& report) {
   return text + "<div class=\"columns\"><figure>" + plot +
          "<figcaption>Every dot is a capture with its number; hollow ones are left "
          "out.</figcaption></figure>\n"
-         "<div><p>A board that faces the camera tells nothing of what turning it would tell. Dots should lie "
-         "all "
+         "<div>" +
+         directionTable(report) +
+         "<p>A board that faces the camera tells nothing of what turning it would tell. Dots should lie all "
          "around, most of them between the dashed rings (30 and 60 degrees), in every direction near ones "
          "and far "
          "ones, the farthest three times as far as the nearest.</p>\n<p>What is missing here is what the "

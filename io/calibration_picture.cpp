@@ -14,6 +14,7 @@ namespace {
 constexpr int kWidest = 480;         // px of a picture; larger parts are reduced
 constexpr int kExact = 320;          // px up to which no pixel is lost to a JPEG
 constexpr double kAround = 0.3;      // of the marks' extent, on either side
+constexpr double kFewest = 32.0;     // px of a picture's height
 constexpr double kMostlyAll = 0.75;  // of the image: then all of it is shown
 
 /// The window in whole pixels, in the proportions of the image.
@@ -26,8 +27,9 @@ cv::Rect windowOf(const GreyImage& image, std::span<const Eigen::Vector2d> marks
   if (box.isEmpty()) return all;
   const Eigen::Vector2d size(image.width_px, image.height_px);
   const double share = (1.0 + 2.0 * kAround) * box.sizes().cwiseQuotient(size).maxCoeff();
-  if (!(share < kMostlyAll)) return all;
-  const Eigen::Vector2d extent = (std::max(share, 0.05) * size).array().ceil();
+  const double shown = std::max(share, kFewest / size.minCoeff());
+  if (!(shown < kMostlyAll)) return all;
+  const Eigen::Vector2d extent = (shown * size).array().ceil();
   const Eigen::Vector2d corner =
       (box.center() - 0.5 * extent).array().round().max(0.0).min((size - extent).array());
   return cv::Rect(static_cast<int>(corner.x()), static_cast<int>(corner.y()), static_cast<int>(extent.x()),

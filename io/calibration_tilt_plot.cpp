@@ -26,7 +26,7 @@ std::string axesDrawing() {
         "<circle cx=\"{0:.1f}\" cy=\"{0:.1f}\" r=\"{1:.1f}\" fill=\"none\" stroke=\"#9aa3ad\" "
         "stroke-dasharray=\"3 3\"/>"
         "<text x=\"{2:.1f}\" y=\"{3:.1f}\" font-size=\"10\" fill=\"#4a5058\">{4:g}&deg;</text>\n",
-        kMiddle, kPerDegree * ring, placeOf(ring) + 2.0, kMiddle - 3.0, ring);
+        kMiddle, kPerDegree * ring, placeOf(0.7071 * ring) + 2.0, placeOf(0.7071 * ring) + 10.0, ring);
   }
   return drawing + fmt::format(
                        "<text x=\"{0:.1f}\" y=\"312\" font-size=\"11\" text-anchor=\"middle\">faces left "
