@@ -183,13 +183,16 @@ std::string mountingSection(const CalibrationReport& report) {
 
 std::string cameraSection(const CalibrationReport& report, std::size_t camera) {
   const ReportedCamera& lens = report.cameras[camera];
-  std::string text = fmt::format("<h2 id=\"camera-{}\">The {}</h2>\n", camera, escaped(lens.name));
+  std::string text = fmt::format("<h2 id=\"camera-{}\">The {}</h2>\n<p>{} &times; {} px. ", camera,
+                                 escaped(lens.name), lens.width_px, lens.height_px);
+  if (coverageOf(report, camera).covered() == 0)
+    return text + "No corner of a board counts in its images.</p>\n" + intrinsicsTable(lens);
   text += fmt::format(
-      "<p>{} &times; {} px. {} ({} left out), reprojection error <b>{} px</b> rms; corners err {} times as "
-      "far as "
-      "each claims by its own image.</p>\n",
-      lens.width_px, lens.height_px, countText(static_cast<std::size_t>(std::max(0, lens.corners)), "corner"),
-      lens.left_out, numberText(lens.rms_px, 3), numberText(lens.corner_factor, 2));
+      "{} ({} left out), reprojection error <b>{} px</b> rms; corners err {} times as far as each claims by "
+      "its "
+      "own image.</p>\n",
+      countText(static_cast<std::size_t>(std::max(0, lens.corners)), "corner"), lens.left_out,
+      numberText(lens.rms_px, 3), numberText(lens.corner_factor, 2));
   return text + cameraFigures(report, camera) + intrinsicsTable(lens) + intrinsicsCorrelation(lens);
 }
 

@@ -142,7 +142,7 @@ std::string returnsDrawing(const ReportedView& view, const ReportedCapture& capt
   for (const ReportedReturn& echo : capture.returns) {
     if (!echo.pixel.allFinite() || !std::isfinite(echo.residual_mm)) continue;
     content += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" {}/>\n", echo.pixel.x(),
-                           echo.pixel.y(), 2.6 * unit,
+                           echo.pixel.y(), 2.2 * unit,
                            echo.counts ? fmt::format("fill=\"{}\"", colourOf(echo, limit_mm))
                                        : fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.3f}\"",
                                                      colourOf(echo, limit_mm), 1.2 * unit));

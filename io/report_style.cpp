@@ -48,6 +48,7 @@ figcaption { font-size: 8.5pt; color: #4a5058; margin-top: 1mm; }
 .pictures figure { margin-bottom: 1mm; }
 .capture { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm; align-items: start; }
 .capture > * { min-width: 0; }
+.beside:nth-child(odd) { grid-column: 1 / -1; margin-bottom: 4mm; }
 @media print { .capture { grid-template-columns: repeat(3, 1fr); gap: 0 5mm; } .beside { columns: 2; grid-column: 1 / -1; } }
 @media print { .spot h3 { margin-top: 2.5mm; } .pictures svg { width: 48mm; }
   .spot td, .spot th { padding: 0.6mm 1.6mm; } }
