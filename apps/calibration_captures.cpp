@@ -166,11 +166,14 @@ void addReturns(ReportedCapture& capture, const Place& place) {
   if (run.result.captures[*place.result].returns_laser.empty()) return;
   capture.ranges = rangesOf(place, on_board);
   const Camera camera(run.result.estimate.cameras.front());
-  const std::size_t every = on_board.size() / kDrawn + 1;
-  for (std::size_t i = 0; i < on_board.size(); ++i) {
-    if (i % every != 0) continue;
-    if (const auto pixel = camera.project(T_reference_laser * on_board[i].p_laser))
-      capture.returns.push_back({*pixel, 1e3 * on_board[i].residual, on_board[i].counts});
+  const bool beam = run.input.laser->kind == LaserKind::beam;  // all of it is one place: its mean is drawn
+  const std::size_t every = beam ? 1 : on_board.size() / kDrawn + 1;
+  for (std::size_t i = 0; i < on_board.size(); i += every) {
+    const auto pixel = camera.project(T_reference_laser * on_board[i].p_laser);
+    if (!pixel || (beam && !on_board[i].counts)) continue;
+    const double residual_mm = beam ? capture.ranges->offset_mm : 1e3 * on_board[i].residual;
+    capture.returns.push_back({*pixel, residual_mm, on_board[i].counts});
+    if (beam) break;
   }
 }
 

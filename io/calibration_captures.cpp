@@ -115,9 +115,10 @@ std::string viewFigure(const CalibrationReport& report, const ReportedView& view
 std::string returnsFigure(const CalibrationReport& report, const ReportedCapture& capture,
                           const ReportedView& view, const std::string& id) {
   const double limit = residualLimit(report);
-  const std::string what = report.by_first_guess
-                               ? "The laser's returns where the rig's <b>first guess</b> puts them"
-                               : "The laser's returns on the board, those left out as rings";
+  const std::string what =
+      report.by_first_guess
+          ? "The laser's returns where the rig's <b>first guess</b> puts them"
+          : "The laser's returns on the board (of a beam their mean), those left out as rings";
   return figure(returnsDrawing(view, capture, limit, id) + residualBar(limit),
                 what + ". Blue: before the board, red: behind it, along the ray.");
 }

@@ -126,9 +126,10 @@ std::string intrinsicsCorrelation(const ReportedCamera& camera) {
     sigmas.push_back(numberText(sigma, decimalsFor(sigma)));
   }
   if (free.empty()) return {};
-  return "<h3>How its numbers err together</h3>\n<p class=\"note\">Correlations; sigmas on the "
+  return "<div class=\"block\"><h3>How its numbers err together</h3>\n<p class=\"note\">Correlations; sigmas "
+         "on the "
          "diagonal.</p>\n" +
-         correlationTable(camera.covariance(free, free), names, sigmas);
+         correlationTable(camera.covariance(free, free), names, sigmas) + "</div>\n";
 }
 
 std::string figure(const std::string& drawing, const std::string& caption) {

@@ -103,6 +103,29 @@ std::string meanArrows(const CalibrationReport& report, std::size_t camera, cons
   return "<path d=\"" + path + "\" stroke=\"#0b4f94\" stroke-width=\"2.6\" fill=\"none\"/>\n";
 }
 
+constexpr double kSigmas = 4.0;  ///< on either side of a histogram's middle
+
+std::vector<double> componentsOf(const CalibrationReport& report, std::size_t camera) {
+  std::vector<double> values;
+  for (const Residual& residual : residualsOf(report, camera)) {
+    values.push_back(residual.off.x());
+    values.push_back(residual.off.y());
+  }
+  return values;
+}
+
+/// A Gaussian as high as `top` above the line that it stands on.
+std::string bellDrawing(double wide, double foot, double top) {
+  std::string curve;
+  for (int i = 0; i <= 80; ++i) {
+    const double t = kSigmas * (i / 40.0 - 1.0);
+    curve += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", wide * i / 80.0,
+                         foot - top * std::exp(-0.5 * t * t));
+  }
+  return "\n<path d=\"" + curve + "\" stroke=\"#a3120a\" stroke-width=\"1.6\" fill=\"none\"/>\n" +
+         fmt::format("<line x1=\"0\" x2=\"{}\" y1=\"{}\" y2=\"{}\" stroke=\"#16191d\"/>", wide, foot, foot);
+}
+
 }  // namespace
 
 double cornerSpacing(const CalibrationReport& report, std::size_t camera) {
@@ -180,15 +203,10 @@ std::string coverageMap(const CalibrationReport& report, std::size_t camera) {
 
 std::string residualHistogram(const CalibrationReport& report, std::size_t camera) {
   constexpr int kBins = 33;
-  constexpr double kSigmas = 4.0, kWide = 340.0, kFoot = 120.0, kHigh = 108.0;
-  std::vector<double> values;
+  constexpr double kWide = 340.0, kFoot = 120.0, kHigh = 108.0;
+  const std::vector<double> values = componentsOf(report, camera);
   double squares = 0.0;
-  for (const Residual& residual : residualsOf(report, camera)) {
-    for (const double value : {residual.off.x(), residual.off.y()}) {
-      values.push_back(value);
-      squares += value * value;
-    }
-  }
+  for (const double value : values) squares += value * value;
   const double sigma = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, values.size())));
   if (!(sigma > 0.0)) return {};
   std::array<int, kBins> bins{};
@@ -201,21 +219,14 @@ std::string residualHistogram(const CalibrationReport& report, std::size_t camer
       static_cast<double>(values.size()) * 2.0 * kSigmas / kBins / std::sqrt(2.0 * std::numbers::pi);
   const double scale =
       kHigh / std::max(bell, static_cast<double>(*std::max_element(bins.begin(), bins.end())));
-  std::string content, curve;
+  std::string content;
   for (int i = 0; i < kBins; ++i) {
     const double height = scale * bins[static_cast<std::size_t>(i)];
     content +=
         fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#c3ccd6\"/>",
                     kWide * i / kBins, kFoot - height, kWide / kBins - 1.0, height);
   }
-  for (int i = 0; i <= 80; ++i) {
-    const double t = kSigmas * (i / 40.0 - 1.0);
-    curve += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", kWide * i / 80.0,
-                         kFoot - scale * bell * std::exp(-0.5 * t * t));
-  }
-  content +=
-      "\n<path d=\"" + curve + "\" stroke=\"#a3120a\" stroke-width=\"1.6\" fill=\"none\"/>\n" +
-      fmt::format("<line x1=\"0\" x2=\"{}\" y1=\"{}\" y2=\"{}\" stroke=\"#16191d\"/>", kWide, kFoot, kFoot);
+  content += bellDrawing(kWide, kFoot, scale * bell);
   for (int i = -2; i <= 2; ++i) {
     content += fmt::format("<text x=\"{:.1f}\" y=\"{}\" font-size=\"11\" text-anchor=\"middle\">{}{}</text>",
                            kWide * (0.5 + 0.2 * i), kFoot + 15.0, numberText(1.6 * i * sigma, 3),

@@ -139,10 +139,12 @@ std::string returnsDrawing(const ReportedView& view, const ReportedCapture& capt
       "fill=\"#16191d\" "
       "fill-opacity=\"0.6\"/>\n",
       id, window.min().x(), window.min().y(), window.sizes().x(), window.sizes().y());
+  constexpr std::size_t kFew = 30;
+  const double radius = (capture.returns.size() <= kFew ? 6.0 : 2.2) * unit;
   for (const ReportedReturn& echo : capture.returns) {
     if (!echo.pixel.allFinite() || !std::isfinite(echo.residual_mm)) continue;
     content += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" {}/>\n", echo.pixel.x(),
-                           echo.pixel.y(), 2.2 * unit,
+                           echo.pixel.y(), radius,
                            echo.counts ? fmt::format("fill=\"{}\"", colourOf(echo, limit_mm))
                                        : fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.3f}\"",
                                                      colourOf(echo, limit_mm), 1.2 * unit));

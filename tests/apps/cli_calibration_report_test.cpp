@@ -45,7 +45,7 @@ TEST(CalibrationReportVerb, ShowsTheImagesWhereNoBoardIsFound) {
   const std::string board = "inner_corners: [";
   const std::size_t at = yaml.find(board);
   ASSERT_NE(at, std::string::npos) << yaml;
-  yaml.insert(at + board.size(), "1");  // 19 columns
+  yaml.insert(at + board.size(), 1, '1');  // 19 columns
   std::ofstream(folder / "board" / "captures.yaml") << yaml;
   EXPECT_EQ(thermovox(folder.path(), kCalibrate).code, 3);
   const std::string html = bytesOf(folder / "report.html");
