@@ -153,7 +153,8 @@ ReportedRanges rangesOf(const Place& place, const std::vector<OnBoard>& on_board
   if (!plane) return ranges;
   ranges.scatter_mm = 1e3 * plane->sigma;
   const auto& biases = place.run.result.estimate.range_bias;
-  if (*place.result < biases.size()) ranges.bias_mm = -1e3 * biases[*place.result];
+  if (*place.result < biases.size())
+    ranges.bias_mm = -1e3 * (biases[*place.result] + place.run.result.estimate.common_range_bias);
   return ranges;
 }
 

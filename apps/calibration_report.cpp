@@ -108,10 +108,10 @@ void addLaser(CalibrationReport& report, const CalibrationRun& run) {
                               fmt::format("{:.3g}", verdict.condition));
   if (verdict.jackknife_ratio > 0.0)
     report.laser.emplace_back(
-        "scatter when each capture in turn is left out, over what the covariance says (jackknife; above 2 "
-        "something "
-        "errs that is not modelled)",
-        fmt::format("{:.2f}", verdict.jackknife_ratio));
+        "scatter when each capture in turn is left out, over what the covariance says (jackknife)",
+        fmt::format(
+            "{:.2f}{}", verdict.jackknife_ratio,
+            verdict.jackknife_wins ? ": more than chance makes; the covariance is made as large" : ""));
   if (run.result.rms_mm > 0.0) {
     report.laser.emplace_back("returns about the boards' planes, rms along the ray",
                               fmt::format("{:.1f} mm", run.result.rms_mm));
