@@ -10,6 +10,7 @@
 #include "apps/calibrate_mission.hpp"
 #include "apps/calibration_job.hpp"
 #include "apps/calibration_output.hpp"
+#include "apps/calibration_report.hpp"
 #include "apps/stage_progress.hpp"
 #include "apps/verbs.hpp"
 #include "io/atomic_file.hpp"
@@ -27,6 +28,7 @@ struct CalibrateArgs {
   CLI::Option* mission = nullptr;  ///< of the laser's task: no captures, but a mission
   bool refine = false;
   fs::path rig;
+  fs::path report;  ///< empty: none
   CalibrationJob job;
   CLI::Option* laser = nullptr;  ///< which of several
   bool keep_lens = false;
@@ -38,6 +40,7 @@ struct CalibrateArgs {
 void runOnMission(const CalibrateArgs& args) {
   MissionRefinementArgs mission = args.on_mission;
   if (!args.captures.empty()) throw UsageError("--mission: needs no CAPTURES, expected one or the other");
+  if (!args.report.empty()) throw UsageError("--report: is of captures, expected no --mission");
   if (args.refine == args.rig.empty())
     throw UsageError(args.refine ? "--refine: expected -o RIG.yaml, the rig to write"
                                  : "-o: on a mission a rig is written with --refine only");
@@ -58,16 +61,28 @@ void runCalibrate(CalibrateArgs args) {
                                            : "-o: expected the rig to write (.yaml)");
   if (args.keep_lens) args.job.lens = CameraGuess::Lens::keep;
   checkEnding(args.rig, {".yaml", ".yml"});
-  checkOutput(args.rig, args.force ? Existing::replace : Existing::refuse);
+  const Existing existing = args.force ? Existing::replace : Existing::refuse;
+  checkOutput(args.rig, existing);
+  if (!args.report.empty()) {
+    checkEnding(args.report, {".html"});
+    checkOutput(args.report, existing);
+  }
   CalibrationRun run;
   {
     StageProgress progress;
     args.job.progress = [&](const std::string& stage, double done) { progress.at(stage, done); };
-    run = runCalibration(args.captures, args.job);
+    run = readCalibration(args.captures, args.job);
+    try {
+      calibrate(run, args.job);
+    } catch (const UnobservableError&) {
+      if (!args.report.empty()) writeCalibrationReport(run, args.job, run.folder.rig, args.report, existing);
+      throw;
+    }
   }
   const Rig rig = calibratedRig(run, args.job);
   const std::string reason = unobservableReason(run, args.job);
   if (args.json) std::cout << calibrationJson(run, args.job, rig) << std::flush;
+  if (!args.report.empty()) writeCalibrationReport(run, args.job, rig, args.report, existing);
   if (!reason.empty()) throw UnobservableError(args.captures.string() + ": " + reason);
   writeRig(args.rig, rig);
   for (const std::string& warning : run.result.warnings) spdlog::warn("{}", warning);
@@ -86,6 +101,8 @@ void addCommon(CLI::App& verb, CalibrateArgs& args) {
   verb.add_option("CAPTURES", args.captures,
                   "Folder of captures (captures.yaml), with the first guess of the rig");
   verb.add_option("-o,--output", args.rig, "Rig to write (.yaml), with covariances");
+  verb.add_option("--report", args.report,
+                  "Also write a report (.html) with pictures of every capture; also where exit code is 3");
   verb.add_flag("--force", args.force, "Replace files that are there");
   verb.add_flag("--json", args.json, "Print one JSON object");
   addThreadsOption(verb, args.job.threads);
