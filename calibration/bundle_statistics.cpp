@@ -36,14 +36,14 @@ BiasInformation eliminated(const Eigen::MatrixXd& information, const Eigen::Vect
 
 JointCovariance jointCovariance(const Linearisation& linear) {
   constexpr double kSingular = 1e-13;
+  JointCovariance joint;
+  if (linear.jacobian.cols() == 0) return joint;
   const Eigen::MatrixXd information = informationOf(linear);
   const Eigen::VectorXd scale =
       information.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 1.0; });
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       Eigen::MatrixXd(scale.asDiagonal() * information * scale.asDiagonal()));
   const Eigen::VectorXd& values = eigen.eigenvalues();
-  JointCovariance joint;
-  if (values.size() == 0) return joint;
   joint.condition = values[0] / values[values.size() - 1];
   if (!(joint.condition > kSingular)) return joint;
   const Eigen::MatrixXd vectors = scale.asDiagonal() * eigen.eigenvectors();

@@ -265,6 +265,9 @@ BundleFit Bundle::solve() {
   std::vector<double*> all;
   problem_.GetParameterBlocks(&all);
   for (double* block : all) options.linear_solver_ordering->AddElementToGroup(block, 1);
+  // Within a group Ceres goes by addresses, which differ from run to run: every block has one of its own.
+  int group = 1;
+  for (double* block : parameters_) options.linear_solver_ordering->AddElementToGroup(block, ++group);
   for (PoseNumbers& board : boards_) {
     if (problem_.HasParameterBlock(board.data()))
       options.linear_solver_ordering->AddElementToGroup(board.data(), 0);
