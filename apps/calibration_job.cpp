@@ -142,7 +142,7 @@ Matrix6d inverseCovariance(const Matrix6d& covariance, const Pose& T_camera_refe
 
 }  // namespace
 
-CalibrationRun runCalibration(const fs::path& captures, const CalibrationJob& job) {
+CalibrationRun readCalibration(const fs::path& captures, const CalibrationJob& job) {
   CalibrationRun run{.folder = openCaptures(captures)};
   run.cameras = camerasFor(run.folder, job);
   run.input.board = run.folder.board;
@@ -153,8 +153,16 @@ CalibrationRun runCalibration(const fs::path& captures, const CalibrationJob& jo
   }
   if (job.task == CalibrationTask::laser) run.input.laser = laserGuess(run.folder, job, T_body_reference);
   readCaptures(run, job);
-  run.result = calibrateRig(run.input, {.progress = job.progress});
   return run;
+}
+
+void calibrate(CalibrationRun& run, const CalibrationJob& job) {
+  try {
+    run.result = calibrateRig(run.input, {.progress = job.progress});
+  } catch (const UnobservableError& refusal) {
+    run.refused = refusal.what();
+    throw;
+  }
 }
 
 Rig calibratedRig(const CalibrationRun& run, const CalibrationJob& job) {

@@ -34,12 +34,17 @@ struct CalibrationRun {
   CalibrationInput input;
   RigCalibration result;
   std::vector<std::string> without_board;  ///< images in which no board was found, as their list names them
+  std::string refused;                     ///< why there is no result at all; empty where there is one
 };
 
-/// Finds the boards in the folder's images, reads its laser's files, and calibrates. Throws ConfigError or
-/// DataError naming the file for what is damaged or missing, UnobservableError where the cameras cannot be
-/// determined; a laser that cannot be is told by the result.
-[[nodiscard]] CalibrationRun runCalibration(const std::filesystem::path& captures, const CalibrationJob& job);
+/// Finds the boards in the folder's images and reads its laser's files; there is no result yet. Throws
+/// ConfigError or DataError naming the file for what is damaged or missing.
+[[nodiscard]] CalibrationRun readCalibration(const std::filesystem::path& captures,
+                                             const CalibrationJob& job);
+
+/// Calibrates by what was read. Throws UnobservableError where the cameras cannot be determined, and leaves
+/// why in `refused`; a laser that cannot be is told by the result.
+void calibrate(CalibrationRun& run, const CalibrationJob& job);
 
 /// The folder's rig with what was calibrated in it, and its covariances.
 [[nodiscard]] Rig calibratedRig(const CalibrationRun& run, const CalibrationJob& job);

@@ -16,7 +16,7 @@ constexpr double kBehind = 0.06;     // metres behind it: another surface
 constexpr double kNear = 0.03;       // metres: a crossing is so near to its edge
 constexpr double kDoubt = 0.03;      // metres: the next edge is so much farther
 constexpr double kSpot = 0.001;      // metres, one sigma: what is unsharp besides the gap of the rays
-constexpr double kBeamSpot = 0.006;  // radians, one sigma: a beam by itself has no neighbours
+constexpr double kBeamSpot = 0.003;  // radians, one sigma of where in a beam (8 mrad wide) an edge is
 constexpr double kWidestGap = 0.05;  // metres between the two rays on the board
 constexpr double kGrazing = 0.34;    // cosine of the incidence
 
@@ -163,7 +163,7 @@ std::vector<EdgeCrossing> beamCrossings(const ReturnSet& returns, const Plate& p
   const Sighting beam = plate.sightingOf(Eigen::Vector3d::UnitX(), 0.0);
   std::optional<EdgeCrossing> crossing = plate.at(Eigen::Vector3d::UnitX(), beam.hit);
   if (!crossing) return {};
-  crossing->sigma = kBeamSpot / beam.cosine;  // at one metre
+  crossing->sigma = kBeamSpot * returns.front().norm() / beam.cosine;
   return {*crossing};
 }
 

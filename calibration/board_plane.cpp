@@ -10,6 +10,7 @@ namespace {
 constexpr double kOutlier = 3.5;       // robust sigmas
 constexpr double kPriorReturns = 4.0;  // how many returns the rig's sigma counts for
 constexpr double kLargestRange = 1e6;  // metres
+constexpr double kNothing = 1e-9;      // of a matrix: rounding
 
 struct Ray {
   Eigen::Vector3d direction;
@@ -124,6 +125,12 @@ void decompose(PlaneMoments& moments, const std::vector<Ray>& rays) {
   const Eigen::MatrixXd upper = triangle.triangularView<Eigen::Upper>();
   moments.slope = upper.topLeftCorner<4, 4>();
   moments.offset = upper.block<4, 1>(0, 4);
+  // What the rays do not span leaves rows that say nothing; their offsets are of the noise alone.
+  for (int row = 0; row < 4; ++row) {
+    if (moments.slope.row(row).norm() > kNothing * moments.slope.norm()) continue;
+    moments.slope.row(row).setZero();
+    moments.offset[row] = 0.0;
+  }
 }
 
 }  // namespace

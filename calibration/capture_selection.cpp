@@ -5,8 +5,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
@@ -16,7 +17,7 @@
 namespace thermovox {
 namespace {
 
-constexpr double kUnlikely = 2.5e-4;
+constexpr double kUnlikely = 5e-4;
 constexpr double kLeastKept = 0.6;  // of the captures, at first
 constexpr std::size_t kFewest = 6;  // captures that are never judged
 constexpr int kSteps = 8;           // of Gauss and Newton
@@ -79,6 +80,23 @@ double trimmedSigma(double share) {
   const boost::math::normal gaussian;
   const double z = boost::math::quantile(gaussian, 0.5 + 0.5 * share);
   return std::sqrt(1.0 - 2.0 * z * boost::math::pdf(gaussian, z) / share);
+}
+
+/// How likely a residual of this covariance is. Along the bias its sigma is an estimate with `freedom`
+/// degrees of freedom (Student's t); across, where a turned board shows, it is the known noise (chi-square).
+/// The less likely of both counts, twice.
+double probabilityOf(const PlaneRow& row, const Eigen::Matrix4d& covariance, double freedom) {
+  const Eigen::LLT<Eigen::Matrix4d> llt(covariance);
+  const Eigen::Vector4d white = llt.matrixL().solve(row.residual);
+  const Eigen::Vector4d along = Eigen::Vector4d(llt.matrixL().solve(row.bias)).normalized();
+  const double shift = along.dot(white), turn = white.squaredNorm() - shift * shift;
+  const boost::math::students_t t(freedom);
+  double least = 2.0 * boost::math::cdf(boost::math::complement(t, std::abs(shift)));
+  if (row.dimensions > 1 && turn > 0.0) {
+    const boost::math::chi_squared chi_squared(row.dimensions - 1);
+    least = std::min(least, boost::math::cdf(boost::math::complement(chi_squared, turn)));
+  }
+  return std::min(1.0, 2.0 * least);
 }
 
 /// Generalised least squares on the planes alone.
@@ -180,11 +198,7 @@ void PlaneFit::judge(double share) {
     const Eigen::Matrix4d own = covarianceOf(all[i], bias_sigma);
     const Eigen::Matrix4d expected =
         state_.counts[i] ? Eigen::Matrix4d(own - by_laser) : Eigen::Matrix4d(own + by_laser);
-    const double squares = all[i].residual.dot(Eigen::LDLT<Eigen::Matrix4d>(expected).solve(all[i].residual));
-    const double freedom = std::max(2.0, counting - 6.0);
-    const boost::math::fisher_f f(all[i].dimensions, freedom);
-    state_.probability[i] =
-        squares > 0.0 ? boost::math::cdf(boost::math::complement(f, squares / all[i].dimensions)) : 1.0;
+    state_.probability[i] = probabilityOf(all[i], expected, std::max(2.0, counting - 6.0));
   }
 }
 
@@ -229,6 +243,7 @@ CaptureSelection selectCaptures(const std::vector<CaptureSight>& sights, LaserKi
     state.counts[*best] = true;
     fit.refit();
   }
+  if (planes <= static_cast<double>(kFewest + 1)) return state;
   // Whoever came in while the sigma was thought larger has to pass by the sigma of all.
   fit.judgeWhole();
   for (auto worst = extreme(sights, state, true); worst && state.probability[*worst] < kUnlikely;

@@ -27,10 +27,10 @@ struct CaptureSelection {
 
 /// Parts captures whose laser saw another board than the cameras (it moved in between) from the others. The
 /// least fitting two fifths are left out, then the best fitting of those come back one at a time, as long as
-/// their planes are as the others have it (an F test at 2.5e-4). How much the ranges of a capture err
-/// together is estimated anew each time, for the part that counts (a forward search: Atkinson and Riani 2000;
-/// what remains of a Gaussian whose tails are cut off: Croux and Rousseeuw 1992). Each plane is weighted by
-/// its own noise and by how well its images know the board. `start` should explain most captures.
+/// their planes are as the others have it (Student's test and a chi-square at 5e-4). How much the ranges of a
+/// capture err together is estimated anew each time, for the part that counts (a forward search: Atkinson and
+/// Riani 2000; what remains of a Gaussian whose tails are cut off: Croux and Rousseeuw 1992). Each plane is
+/// weighted by its own noise and by how well its images know the board. `start` should explain most captures.
 [[nodiscard]] CaptureSelection selectCaptures(const std::vector<CaptureSight>& sights, LaserKind kind,
                                               const Pose& start);
 

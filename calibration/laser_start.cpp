@@ -15,6 +15,7 @@
 
 #include "calibration/plane_residual.hpp"
 #include "calibration/pose_manifold.hpp"
+#include "calibration/pose_numbers.hpp"
 
 namespace thermovox {
 namespace {
@@ -62,14 +63,6 @@ struct SightResidual {
     return T(0);
   }
 };
-
-using PoseNumbers = std::array<double, 7>;
-
-PoseNumbers numbersOf(const Pose& pose) {
-  const auto& q = pose.rotation.coeffs();
-  const auto& t = pose.translation;
-  return {q[0], q[1], q[2], q[3], t[0], t[1], t[2]};
-}
 
 class Start {
  public:
@@ -156,8 +149,7 @@ LaserStart Start::refined(const Pose& T_reference_laser) const {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
   }
-  return judged({Eigen::Quaterniond(laser[3], laser[0], laser[1], laser[2]).normalized(),
-                 {laser[4], laser[5], laser[6]}});
+  return judged(poseOf(laser));
 }
 
 /// The rotation nearest to the columns that were solved for; of fewer than three the others follow.

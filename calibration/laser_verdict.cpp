@@ -197,7 +197,11 @@ LaserVerdict laserVerdict(const Linearisation& linear, const Eigen::MatrixXd& co
   }
   const Eigen::VectorXd jackknife = jackknifeSigmas(linear, input.captures);
   verdict.jackknife_ratio = (jackknife.array() / laser.diagonal().array().sqrt()).maxCoeff();
-  if (verdict.jackknife_ratio > kJackknifeWins) verdict.covariance *= std::pow(verdict.jackknife_ratio, 2);
+  const auto n =
+      static_cast<double>(std::count_if(linear.layout.range_bias.begin(), linear.layout.range_bias.end(),
+                                        [](int place) { return place >= 0; }));
+  verdict.jackknife_wins = verdict.jackknife_ratio > kJackknifeWins * n / (n - 2.0);
+  if (verdict.jackknife_wins) verdict.covariance *= std::pow(verdict.jackknife_ratio, 2);
   return verdict;
 }
 

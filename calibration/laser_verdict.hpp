@@ -31,9 +31,11 @@ struct LaserVerdict {
   Vector6d weakest = Vector6d::Zero();  ///< one sigma along what is known least, as in `covariance`
   std::string weakest_direction;        ///< the same in words, and which capture would help
   double weakest_share = 0.0;           ///< its sigma over what is tolerable (0.2 degrees, 5 mm)
-  /// Of sigmas, leave-one-capture-out over the bundle's, the largest of six. From 2 on `covariance` is the
+  /// Of sigmas, leave-one-capture-out over the bundle's, the largest of six. Where it is more than few
+  /// captures make it by chance, 2 n / (n - 2), something errs that is not modelled: `covariance` is then the
   /// bundle's times its square.
   double jackknife_ratio = 0.0;
+  bool jackknife_wins = false;
   std::vector<std::string> warnings;
 };
 

@@ -13,8 +13,10 @@
 #include <cmath>
 #include <memory>
 
+#include "calibration/bias_residual.hpp"
 #include "calibration/plane_residual.hpp"
 #include "calibration/pose_manifold.hpp"
+#include "calibration/pose_numbers.hpp"
 #include "calibration/reprojection_residual.hpp"
 
 namespace thermovox {
@@ -23,39 +25,7 @@ namespace {
 constexpr double kHuber = 2.0;  // sigmas
 constexpr int kMostIterations = 100;
 
-using PoseNumbers = std::array<double, 7>;
 using CameraNumbers = std::array<double, kCameraParameters>;
-
-PoseNumbers numbersOf(const Pose& pose) {
-  const auto& q = pose.rotation.coeffs();
-  const auto& t = pose.translation;
-  return {q[0], q[1], q[2], q[3], t[0], t[1], t[2]};
-}
-
-Pose poseOf(const PoseNumbers& n) {
-  return {Eigen::Quaterniond(n[3], n[0], n[1], n[2]).normalized(), {n[4], n[5], n[6]}};
-}
-
-/// A bias that is about 0: [1]. Residual: 1.
-struct PriorResidual {
-  double sigma;
-  template <typename T>
-  bool operator()(const T* value, T* residual) const {
-    *residual = *value / T(sigma);
-    return true;
-  }
-};
-
-/// The sum of a capture's bias and that of all ranges takes the place of the first in PlaneResidual.
-struct PlaneResidualWithCommonBias {
-  PlaneResidual residual_of;
-  template <typename T>
-  bool operator()(const T* T_reference_board, const T* T_reference_laser, const T* range_bias,
-                  const T* common_bias, T* residual) const {
-    const T bias = *range_bias + *common_bias;
-    return residual_of(T_reference_board, T_reference_laser, &bias, residual);
-  }
-};
 
 /// The numbers of an estimate where Ceres varies them, and the problem about them.
 class Bundle {

@@ -12,8 +12,10 @@
 #include "calibration/camera_start.hpp"
 #include "calibration/capture_selection.hpp"
 #include "calibration/free_intrinsics.hpp"
+#include "calibration/laser_sights.hpp"
 #include "calibration/laser_start.hpp"
 #include "calibration/noise_model.hpp"
+#include "calibration/residual_summary.hpp"
 #include "calibration/verdict_words.hpp"
 #include "projection/error.hpp"
 
@@ -23,13 +25,8 @@ namespace {
 constexpr double kInset = 0.01;         // metres from the plate's edge: mixed returns
 constexpr double kSlack = 0.03;         // metres off the plane, and five sigmas of the laser
 constexpr double kWellExplained = 0.3;  // mean cost of a start, 0 to 1, that needs no wider search
-constexpr int kLaserRounds = 3;         // of extraction and bundle
-
-/// Where a ray of the laser meets the board of a capture, metres.
-double rangeOf(const RigEstimate& estimate, std::size_t capture, const Eigen::Vector3d& ray_laser) {
-  const Pose T_board_laser = estimate.T_reference_board[capture].inverse() * estimate.T_reference_laser;
-  return -T_board_laser.translation.z() / (T_board_laser.rotation * ray_laser).z();
-}
+constexpr int kSelectionRounds = 3;     // of planes and which of them count
+constexpr int kBundleRounds = 2;        // of planes, edges and the bundle
 
 class Calibrator {
  public:
@@ -44,14 +41,15 @@ class Calibrator {
   }
   void startFromCameras();
   void fitCameras();
+  [[nodiscard]] BundleFit withThirdRadial(BundleFit fit);
   void calibrateLaser();
   [[nodiscard]] std::optional<LaserStart> findLaser();
-  [[nodiscard]] std::vector<LaserSight> sights(bool near_guess) const;
-  void takePlanes(const RigEstimate& estimate, bool with_edges);
+  enum class EdgesToo { no, yes };
+  void takePlanes(const RigEstimate& estimate, EdgesToo edges);
   [[nodiscard]] std::vector<CaptureSight> captureSights() const;
+  void fitTogether(RigEstimate estimate);
   void dropCaptures(const CaptureSelection& selection, const RigEstimate& estimate);
   void refuseLaser(const std::string& reason);
-  void measureResiduals();
   void judge();
   void judgeCameras(const Linearisation& linear, const Eigen::MatrixXd& covariance);
   void judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& covariance);
@@ -96,6 +94,24 @@ void Calibrator::startFromCameras() {
   }
 }
 
+/// Frees k3 where the corners fit so much better with it that chance does not explain it (1 in 1000).
+BundleFit Calibrator::withThirdRadial(BundleFit fit) {
+  constexpr double kBetter = 10.8;  // of the sum of squares
+  for (std::size_t camera = 0; camera < input_.cameras.size(); ++camera) {
+    const Intrinsics& lens = input_.cameras[camera].intrinsics;
+    std::vector<int>& free = model_.free_intrinsics[camera];
+    if (lens.model != LensModel::brown_conrady || lens.distortion_count < 5 || free.empty()) continue;
+    free.push_back(kDistortion + 4);
+    const BundleFit more = solveBundle(data_, fit.estimate, model_);
+    if (2.0 * (fit.cost - more.cost) > kBetter) {
+      fit = more;
+    } else {
+      free.pop_back();
+    }
+  }
+  return fit;
+}
+
 void Calibrator::fitCameras() {
   tell("cameras", 0.5);
   model_.corner_loss = BundleModel::Loss::huber;
@@ -103,7 +119,7 @@ void Calibrator::fitCameras() {
   const std::vector<int> outliers = dropCornerOutliers(data_, fit.estimate, model_);
   for (std::size_t i = 0; i < outliers.size(); ++i) result_.cameras[i].corner_outliers = outliers[i];
   model_.corner_loss = BundleModel::Loss::none;
-  fit = fitWithNoise(data_, fit.estimate, model_);
+  fit = withThirdRadial(fitWithNoise(data_, fit.estimate, model_));
   result_.estimate = fit.estimate;
   const Linearisation linear = linearise(data_, fit.estimate, model_);
   const Eigen::MatrixXd covariance = jointCovariance(linear).covariance;
@@ -113,38 +129,13 @@ void Calibrator::fitCameras() {
   }
 }
 
-/// What may be the board in each capture's returns; near where the guess has it, or anywhere.
-std::vector<LaserSight> Calibrator::sights(bool near_guess) const {
-  const LaserGuess& laser = *input_.laser;
-  const double diagonal = plateOf(input_.board).norm();
-  std::vector<LaserSight> sights;
-  for (std::size_t i = 0; i < result_.captures.size(); ++i) {
-    sights.push_back({result_.estimate.T_reference_board[i], {}});
-    if (data_.captures[i].corners.empty()) continue;
-    ReturnSet returns = result_.captures[i].returns_laser;
-    if (near_guess && laser.kind == LaserKind::cloud) {
-      const Eigen::Vector3d middle =
-          laser.T_reference_laser.inverse() * sights.back().T_reference_board.translation;
-      const double reach = 0.5 * diagonal + 0.1 + 0.2 * middle.norm();  // 11 degrees
-      returns.erase(std::remove_if(returns.begin(), returns.end(),
-                                   [&](const auto& p) { return (p - middle).norm() > reach; }),
-                    returns.end());
-    }
-    for (const ReturnSet& candidate : boardCandidates(returns, laser.kind, input_.board)) {
-      if (auto moments = planeMoments(candidate, laser.kind, laser.range_sigma))
-        sights.back().candidates.push_back(*std::move(moments));
-    }
-    tell("board in the laser", static_cast<double>(i + 1) / static_cast<double>(result_.captures.size()));
-  }
-  return sights;
-}
-
 /// First near the guess; where that explains too little, anywhere.
 std::optional<LaserStart> Calibrator::findLaser() {
   std::optional<LaserStart> best;
   std::vector<LaserSight> best_sights;
-  for (const bool near_guess : {true, false}) {
-    std::vector<LaserSight> found = sights(near_guess);
+  for (const SearchWhere where : {SearchWhere::near_guess, SearchWhere::anywhere}) {
+    std::vector<LaserSight> found =
+        laserSights(input_, result_.captures, result_.estimate.T_reference_board, where, options_.progress);
     std::optional<LaserStart> start =
         startLaser(found, data_.laser, input_.laser->T_reference_laser, plateOf(input_.board));
     if (start && (!best || start->cost < best->cost)) {
@@ -162,7 +153,7 @@ std::optional<LaserStart> Calibrator::findLaser() {
 
 /// The returns that are on the plates as the estimate has them, of the captures that count; of the others
 /// what was found without it.
-void Calibrator::takePlanes(const RigEstimate& estimate, bool with_edges) {
+void Calibrator::takePlanes(const RigEstimate& estimate, EdgesToo edges) {
   const LaserGuess& laser = *input_.laser;
   for (std::size_t i = 0; i < data_.captures.size(); ++i) {
     CaptureObservations& capture = data_.captures[i];
@@ -177,7 +168,7 @@ void Calibrator::takePlanes(const RigEstimate& estimate, bool with_edges) {
                                   laser.kind, laser.range_sigma);
       if (moments) capture.plane = *std::move(moments);
     }
-    if (with_edges)
+    if (edges == EdgesToo::yes)
       capture.edges = edgeSides(returns, laser.kind, T_laser_board, input_.board, capture.plane->sigma);
   }
 }
@@ -186,35 +177,43 @@ void Calibrator::calibrateLaser() {
   result_.laser.emplace();
   const std::optional<LaserStart> start = findLaser();
   if (!start) return refuseLaser("no capture has the board in the laser's data");
-  if (start->rival) return refuseLaser(rivalWords(*start));
   counts_.assign(planes_.size(), true);
   RigEstimate estimate = result_.estimate;
+  takePlanes(estimate, EdgesToo::no);
+  if (const auto reason = tooFewCaptures(data_)) return refuseLaser(*reason);
+  if (start->rival) return refuseLaser(rivalWords(*start, data_, estimate));
   estimate.T_reference_laser = start->T_reference_laser;
   if (data_.laser == LaserKind::beam)
     estimate.T_reference_laser = withRollOf(input_.laser->T_reference_laser, start->T_reference_laser);
-  for (int round = 0; round < kLaserRounds; ++round) {
-    tell("laser", static_cast<double>(round) / kLaserRounds);
-    takePlanes(estimate, round > 0);
-    if (const auto reason = tooFewCaptures(data_)) return refuseLaser(*reason);
+  for (int round = 0; round < kSelectionRounds; ++round) {
+    tell("captures that fit", static_cast<double>(round) / kSelectionRounds);
+    if (round > 0) takePlanes(estimate, EdgesToo::no);
     const CaptureSelection selection =
         selectCaptures(captureSights(), data_.laser, estimate.T_reference_laser);
     counts_ = selection.counts;
     model_.range_bias_sigma = selection.range_bias_sigma;
     estimate.T_reference_laser = selection.T_reference_laser;
-    if (round + 1 == kLaserRounds) dropCaptures(selection, estimate);
+    if (round + 1 == kSelectionRounds) dropCaptures(selection, estimate);
   }
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
-    if (counts_[i]) continue;
-    data_.captures[i].plane.reset();
-    data_.captures[i].edges.clear();
+  fitTogether(std::move(estimate));
+}
+
+/// Planes and edges of the captures that count, and the bundle, in turn: edges are found where the last
+/// estimate has them.
+void Calibrator::fitTogether(RigEstimate estimate) {
+  for (int round = 0; round < kBundleRounds; ++round) {
+    tell("bundle", static_cast<double>(round) / kBundleRounds);
+    takePlanes(estimate, EdgesToo::yes);
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      if (!counts_[i]) data_.captures[i].plane.reset();
+    }
+    BundleFit fit = fitWithNoise(data_, estimate, model_);
+    if (dropEdgeOutliers(data_, fit.estimate, model_) > 0) fit = fitWithNoise(data_, fit.estimate, model_);
+    estimate = std::move(fit.estimate);
   }
-  tell("bundle", 0.0);
-  BundleFit fit = fitWithNoise(data_, estimate, model_);
-  if (dropEdgeOutliers(data_, fit.estimate, model_) > 0) fit = fitWithNoise(data_, fit.estimate, model_);
-  result_.estimate = fit.estimate;
   if (data_.laser == LaserKind::beam)
-    result_.estimate.T_reference_laser =
-        withRollOf(input_.laser->T_reference_laser, result_.estimate.T_reference_laser);
+    estimate.T_reference_laser = withRollOf(input_.laser->T_reference_laser, estimate.T_reference_laser);
+  result_.estimate = std::move(estimate);
 }
 
 std::vector<CaptureSight> Calibrator::captureSights() const {
@@ -275,40 +274,10 @@ void Calibrator::judgeLaser(const Linearisation& linear, const Eigen::MatrixXd& 
   const LaserVerdictInput about{.kind = data_.laser,
                                 .free_intrinsics = model_.free_intrinsics.front(),
                                 .captures = static_cast<int>(data_.captures.size())};
-  if (covariance.size() == 0) return refuseLaser(geometryWords(data_, result_.estimate, true).front());
+  if (covariance.size() == 0)
+    return refuseLaser(undeterminedWords("the laser's pose", data_, result_.estimate));
   result_.laser = laserVerdict(linear, covariance, result_.estimate, about);
-  describe(*result_.laser, data_, result_.estimate);
-}
-
-/// What is left of the corners and the returns beside the estimate.
-void Calibrator::measureResiduals() {
-  const std::vector<Eigen::Vector3d>& points = data_.points;
-  std::vector<double> squares(result_.cameras.size(), 0.0);
-  double returns = 0.0, off = 0.0;
-  for (std::size_t i = 0; i < data_.captures.size(); ++i) {
-    const Pose& board = result_.estimate.T_reference_board[i];
-    for (const CornerObservation& corner : data_.captures[i].corners) {
-      const auto camera = static_cast<std::size_t>(corner.camera);
-      const Eigen::Vector3d p = result_.estimate.T_camera_reference[camera] *
-                                (board * points[static_cast<std::size_t>(corner.point)]);
-      const Intrinsics& lens = result_.estimate.cameras[camera];
-      squares[camera] +=
-          (pixelFromCamera<double>(lens.model, lens.parameters.data(), p) - corner.pixel).squaredNorm();
-      ++result_.cameras[camera].corners;
-    }
-    if (!data_.captures[i].plane) continue;
-    const PlaneMoments& plane = *data_.captures[i].plane;
-    double shift = 0.0;
-    for (std::size_t k = 0; k < plane.corner_rays.size(); ++k)
-      shift += std::pow(rangeOf(result_.estimate, i, plane.corner_rays[k]) - plane.corner_ranges[k], 2);
-    shift /= static_cast<double>(plane.corner_rays.size());
-    off += plane.returns * (plane.sigma * plane.sigma + shift);
-    returns += plane.returns;
-  }
-  for (std::size_t camera = 0; camera < squares.size(); ++camera)
-    result_.cameras[camera].rms_px =
-        std::sqrt(squares[camera] / std::max(1, result_.cameras[camera].corners));
-  result_.rms_mm = 1e3 * std::sqrt(off / std::max(1.0, returns));
+  describe(*result_.laser, data_, result_.estimate, model_.range_bias_sigma);
 }
 
 void Calibrator::judge() {
@@ -317,7 +286,12 @@ void Calibrator::judge() {
   const JointCovariance joint = jointCovariance(linear);
   judgeCameras(linear, joint.covariance);
   if (result_.laser && result_.laser->reason.empty()) judgeLaser(linear, joint.covariance);
-  measureResiduals();
+  const ResidualSummary residuals = summarise(data_, result_.estimate);
+  for (std::size_t i = 0; i < result_.cameras.size(); ++i) {
+    result_.cameras[i].corners = residuals.corners[i];
+    result_.cameras[i].rms_px = residuals.rms_px[i];
+  }
+  result_.rms_mm = residuals.rms_mm;
   result_.range_bias_sigma = model_.range_bias_sigma;
   result_.data = data_;
 }

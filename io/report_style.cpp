@@ -46,6 +46,10 @@ figcaption { font-size: 8.5pt; color: #4a5058; margin-top: 1mm; }
 .columns { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm; align-items: start; }
 .pictures { display: grid; grid-template-columns: repeat(3, 1fr); gap: 0 5mm; align-items: start; }
 .pictures figure { margin-bottom: 1mm; }
+.capture { display: grid; grid-template-columns: 1fr 1fr; gap: 0 6mm; align-items: start; }
+.capture > * { min-width: 0; }
+.beside:nth-child(odd) { grid-column: 1 / -1; margin-bottom: 4mm; }
+@media print { .capture { grid-template-columns: repeat(3, 1fr); gap: 0 5mm; } .beside { columns: 2; grid-column: 1 / -1; } }
 @media print { .spot h3 { margin-top: 2.5mm; } .pictures svg { width: 48mm; }
   .spot td, .spot th { padding: 0.6mm 1.6mm; } }
 .spot h3 { margin-top: 3mm; }
@@ -65,7 +69,7 @@ dd { margin: 0; break-inside: avoid; }
 ul { margin: 0 0 3mm; padding-left: 5mm; }
 @media screen and (max-width: 700px) {
   body { padding: 4mm; font-size: 11pt; }
-  .columns, .pictures { display: block; }
+  .columns, .pictures, .capture { display: block; }
   table { font-size: 9.4pt; }
   .scroll table { min-width: 100%; width: max-content; }
   .scroll td.l { max-width: 60mm; }

@@ -1,6 +1,7 @@
 #include <iostream>
 #include <optional>
 
+#include "calibration/board_points.hpp"
 #include "io/rig_file.hpp"
 #include "mapping/thermal_map.hpp"
 #include "projection/camera.hpp"
@@ -22,5 +23,6 @@ int main() {
   map.integrate({&mapped, 1}, thermovox::Carving::octomap);
 
   std::cout << "pixel " << pixel->x() << " " << pixel->y() << ", cells with a surface " << map.surfaceCount()
-            << ", rig " << thermovox::rigText({});
+            << ", corners " << thermovox::boardPoints({.columns = 9, .rows = 6}).size() << ", rig "
+            << thermovox::rigText({});
 }

@@ -16,6 +16,6 @@ step("configuring the consumer" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B
 step("building the consumer" ${CMAKE_COMMAND} --build ${WORK}/build)
 step("running the consumer" ${WORK}/build/consumer)
 message(STATUS "${output}")
-if(NOT output STREQUAL "pixel 87 44.5, cells with a surface 1, rig {}\n")
+if(NOT output STREQUAL "pixel 87 44.5, cells with a surface 1, corners 54, rig {}\n")
   message(FATAL_ERROR "the consumer printed: ${output}")
 endif()
