@@ -112,20 +112,25 @@ Pixels unmirrored(Pixels pixels, const ChessboardGrid& grid) {
   return pixels;
 }
 
-/// The grid in an image, by the first of all searches and versions of it that finds one.
+/// The grid in an image, by the first of all searches and versions of it that finds one. The old search takes
+/// minutes for a large image full of normalised noise, so that it gets small ones only.
 std::optional<Pixels> searched(const cv::Mat& image, const ChessboardGrid& grid) {
+  constexpr int kOldSearchWidth = 320;  // px
   const SearchVersions all = searchVersions(image);
   std::vector<cv::Mat> versions = all.normalised;
   versions.push_back(all.plain);
   const Pixels board = cornersOnBoard(grid);
-  for (const auto search : {&gridIn, &gridOfOldSearch}) {
+  const auto found = [&](const auto& search) -> std::optional<Pixels> {
     for (const cv::Mat& version : versions) {
       std::optional<Pixels> pixels = search(version, grid);
       if (pixels && isFlat(*pixels, board) && alternates(versions.front(), *pixels, grid))
         return unmirrored(*std::move(pixels), grid);
     }
-  }
-  return std::nullopt;
+    return std::nullopt;
+  };
+  std::optional<Pixels> pixels = found(gridIn);
+  if (!pixels && image.cols <= kOldSearchWidth) pixels = found(gridOfOldSearch);
+  return pixels;
 }
 
 }  // namespace

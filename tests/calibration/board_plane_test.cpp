@@ -70,8 +70,11 @@ TEST(PlaneMoments, SayWhatAllRaysSayToSecondOrder) {
           bruteForce(returns, moments->inverse_plane + change, unknowns[3], moments->sigma) - least;
       const double summed =
           (moments->slope * unknowns + moments->offset).squaredNorm() - moments->offset.squaredNorm();
-      // What is left out is of the order of scale^2 in each residual, so scale of the sum; ranges about 1 m.
-      EXPECT_NEAR(summed, exact, 6.0 * scale * std::abs(exact)) << dimensionsOf(kind) << ", " << scale;
+      // What is left out of a residual is its own square over the range: of the order of `scale` of it
+      // (ranges are about 1 m). Plane and bias may cancel in the sum, not in its error.
+      const double parts = bruteForce(returns, moments->inverse_plane + change, 0.0, moments->sigma) +
+                           bruteForce(returns, moments->inverse_plane, unknowns[3], moments->sigma);
+      EXPECT_NEAR(summed, exact, 5.0 * scale * parts) << dimensionsOf(kind) << ", " << scale;
     }
   }
 }
@@ -112,11 +115,15 @@ TEST(PlaneMoments, LeaveOutReturnsOfSomethingElse) {
 
 TEST(PlaneMoments, TakeWhiteNoiseForWhatItIs) {
   Chance chance(5);
-  for (int i = 0; i < 50; ++i) {
+  int taken_for_channels = 0;
+  for (int i = 0; i < 100; ++i) {
     const auto moments = planeMoments(onPlate(LaserKind::cloud, 0.01, chance), LaserKind::cloud, 0.01);
     ASSERT_TRUE(moments);
-    EXPECT_EQ(moments->channel_effect, 1.0);
+    taken_for_channels += moments->channel_effect > 1.0 ? 1 : 0;
+    EXPECT_LT(moments->channel_effect, 4.0);
   }
+  // About twenty rings: a ratio beyond two happens once in a hundred times, and costs little.
+  EXPECT_LE(taken_for_channels, 5);
 }
 
 TEST(PlaneMoments, SeeThatChannelsErrTogether) {

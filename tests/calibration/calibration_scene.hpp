@@ -87,7 +87,7 @@ inline std::vector<Pose> boardsHeld(std::size_t count, std::uint64_t seed) {
   for (std::size_t i = 0; i < count; ++i) {
     const double about = chance.uniform(0.0, 360.0) * kDegree, tilt = chance.uniform(15.0, 45.0) * kDegree;
     const double turn = chance.uniform(-15.0, 15.0) * kDegree, distance = chance.uniform(0.6, 1.8);
-    const double right = chance.uniform(-0.05, 0.05), down = chance.uniform(-0.05, 0.05);
+    const double right = chance.uniform(-0.05, 0.05), down = chance.uniform(-0.07, 0.02);
     boards.push_back(
         {(expRotation({tilt * std::cos(about), tilt * std::sin(about), 0.0}) * expRotation({0.0, 0.0, turn}))
              .normalized(),

@@ -31,7 +31,8 @@ bool isInOrder(const RigTrial& trial, const CameraStart& start, std::size_t capt
 }
 
 void expectStart(const RigTrial& trial, const CameraStart& start) {
-  EXPECT_NEAR(start.estimate.cameras[0].parameters[kFx], trial.truth.cameras[0].parameters[kFx], 1.5);
+  // Ten boards of 54 corners with 0.1 px know the focal length to about 0.8 px: four standard errors.
+  EXPECT_NEAR(start.estimate.cameras[0].parameters[kFx], trial.truth.cameras[0].parameters[kFx], 3.0);
   for (std::size_t camera = 1; camera < start.estimate.cameras.size(); ++camera) {
     const Pose& found = start.estimate.T_camera_reference[camera];
     EXPECT_LT(found.rotation.angularDistance(trial.truth.T_camera_reference[camera].rotation), 2.0 * kDegree);
