@@ -98,6 +98,9 @@ double tells(const Pose& board, const TypicalRays& typical, const Pose& laser, c
 
 std::string adviseCapture(const Vector6d& weakest, const BundleData& data, const RigEstimate& estimate,
                           double range_bias_sigma) {
+  const bool any = std::any_of(data.captures.begin(), data.captures.end(),
+                               [](const CaptureObservations& capture) { return capture.plane.has_value(); });
+  if (!any) return "add captures";
   const Stand stand = standOf(data, estimate);
   const Vector6d move = 0.01 * weakest / weakest.norm();  // small enough to be linear
   double most = -1.0;

@@ -19,7 +19,7 @@ struct CalibrationOptions {
 /// What one camera turned out to be.
 struct CameraVerdict {
   int views = 0;
-  double rms_px = 0.0;         ///< reprojection error of the corners that count, per axis
+  double rms_px = 0.0;         ///< root mean square distance of a corner that counts from its place
   double corner_factor = 1.0;  ///< what the corners' own sigmas had to be multiplied by
   int corners = 0, corner_outliers = 0;
   /// Of fx fy cx cy and the distortion coefficients the camera was given; rows of what was held are 0.
