@@ -54,12 +54,12 @@ TEST(RefineCorner, IsWithinHundredthsOfAPixel) {
   const Refined strong = refineAll(boardOf(8.0), 4), weak = refineAll(boardOf(2.0), 4);
   EXPECT_EQ(strong.missed, 0U);
   EXPECT_EQ(weak.missed, 0U);
-  EXPECT_LT(strong.rms_px, 0.02);  // 0.012 px are possible with this noise
-  EXPECT_LT(weak.rms_px, 0.035);
+  EXPECT_LT(strong.rms_px, 0.01);
+  EXPECT_LT(weak.rms_px, 0.02);
 }
 
 TEST(RefineCorner, SeesEitherPolarity) {
-  EXPECT_LT(refineAll(boardOf(-8.0), 2).rms_px, 0.02);
+  EXPECT_LT(refineAll(boardOf(-8.0), 2).rms_px, 0.01);
 }
 
 TEST(RefineCorner, SaysHowSureItIs) {
